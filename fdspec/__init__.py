@@ -1,0 +1,81 @@
+"""Exact seismic response of buildings with friction dampers.
+
+The names below load on first use, so that `import fdspec` and `fdspec --help` start at once.
+"""
+
+import sys
+from types import ModuleType
+from typing import TYPE_CHECKING
+
+__version__ = "0.1.0"
+
+if TYPE_CHECKING:
+    from fdspec.building import Building, DampingMatrix, ModalDamping, RayleighDamping
+    from fdspec.grid import Study
+    from fdspec.motion import GroundMotion
+    from fdspec.records import load_record, read_record
+    from fdspec.simulate import simulate
+    from fdspec.store import export, open, save  # noqa: A004
+    from fdspec.sweep import sweep
+
+__all__ = [
+    "Building",
+    "DampingMatrix",
+    "GroundMotion",
+    "ModalDamping",
+    "RayleighDamping",
+    "Study",
+    "__version__",
+    "export",
+    "load_record",
+    "open",
+    "read_record",
+    "save",
+    "simulate",
+    "sweep",
+]
+
+_HOME = {
+    "Building": "building",
+    "DampingMatrix": "building",
+    "GroundMotion": "motion",
+    "ModalDamping": "building",
+    "RayleighDamping": "building",
+    "Study": "grid",
+    "export": "store",
+    "load_record": "records",
+    "open": "store",
+    "read_record": "records",
+    "save": "store",
+    "simulate": "simulate",
+    "sweep": "sweep",
+}
+
+
+def __getattr__(name: str) -> object:
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    value: object = getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
+
+
+class _Package(ModuleType):
+    """The package itself, where `sweep` and `simulate` are the functions, whatever is imported first.
+
+    Importing the file `fdspec/sweep.py` would bind the submodule over the function of the same name.
+    """
+
+    def __setattr__(self, name: str, value: object) -> None:
+        if name in _HOME and isinstance(value, ModuleType):
+            return
+        super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package

@@ -1,0 +1,26 @@
+"""Hypothesis profiles and the way to ../shared, the folder of reference files some machines have."""
+
+import os
+from pathlib import Path
+
+import pytest
+from hypothesis import settings
+
+SHARED = Path(__file__).resolve().parents[2] / "shared"
+
+# No deadline: the first call of a kernel compiles it. CI draws the same examples in every run.
+settings.register_profile("ci", deadline=None, derandomize=True, print_blob=True)
+settings.register_profile("dev", deadline=None, print_blob=True)
+settings.load_profile("ci" if os.environ.get("CI") else "dev")
+
+
+def pytest_report_header() -> str:
+    return f"../shared: {'found' if SHARED.is_dir() else 'not found, tests that need it skip'}"
+
+
+@pytest.fixture(scope="session")
+def shared() -> Path:
+    """Give the folder of reference files beside the clone, or skip."""
+    if not SHARED.is_dir():
+        pytest.skip("../shared is not on this machine")
+    return SHARED
