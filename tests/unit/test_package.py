@@ -1,4 +1,4 @@
-"""The front door: a dozen names, nothing heavy behind `import fdspec`, functions where modules share the name."""
+"""The front door: a dozen names, cheap to import, and functions where modules share the name."""
 
 import subprocess
 import sys
@@ -7,7 +7,7 @@ import pytest
 
 import fdspec
 
-HEAVY = {"click", "dask", "matplotlib", "netCDF4", "numba", "numpy", "pandas", "pydantic", "rich", "scipy", "xarray"}
+HEAVY = set("click dask matplotlib netCDF4 numba numpy pandas pydantic rich scipy xarray".split())
 
 
 def run(code: str) -> str:
@@ -34,7 +34,9 @@ def test_unknown_name_raises_attribute_error() -> None:
 
 
 @pytest.mark.parametrize("name", ["simulate", "sweep"])
-@pytest.mark.parametrize("first", ["import fdspec.{0}", "from fdspec.{0} import {0}", "import fdspec; fdspec.{0}"])
+@pytest.mark.parametrize(
+    "first", ["import fdspec.{0}", "from fdspec.{0} import {0}", "import fdspec; fdspec.{0}"]
+)
 def test_function_wins_over_module_of_the_same_name(name: str, first: str) -> None:
     kind = run(f"{first.format(name)}; import fdspec; print(type(fdspec.{name}).__name__)")
     assert kind == "function"
