@@ -1,0 +1,218 @@
+"""First root and largest value of a polynomial on [0, 1]: complete, and located to rounding.
+
+A quantity of the motion on a step of at most about one radian is, to rounding, a polynomial
+p(x) = sum c[k] x^k of the fraction x of the step.  Signs at the two ends say little about it: the
+sliding velocity of a light brace returns close to zero once in every brace period and often
+touches it between two ends.  So every interval is cleared by a bound or taken apart:
+
+- on [x, x + w] the cubic through values and slopes at both ends errs by at most
+  max|p''''| w^4 / 384, and lies within its four Bezier ordinates;
+- where the curvature provably keeps one sign, the extremum in between is found by Newton's method
+  and its sign is looked at;
+- otherwise the interval is halved.
+
+``lo`` strips leading coefficients that are zero by construction (a phase that begins with a zero
+sliding velocity): p(x) = x^lo q(x), and q is searched instead.
+"""
+
+from __future__ import annotations
+
+from fdspec.jit import inner
+
+NO_ROOT = 2.0
+"""Returned where there is no root in [0, 1]."""
+
+SMALLEST_INTERVAL = 2.0**-40
+"""Where an interval this short is still undecided, values at its ends decide: p is then zero to rounding."""
+
+NEWTON_STEPS = 60
+"""Newton needs 3 to 6; the bracket halves at least every second step, so 60 always suffice."""
+
+
+@inner
+def value_slope(c, lo, n, x):
+    """Value and slope at x of q(x) = sum over k = lo..n of c[k] x^(k - lo)."""
+    value = c[n]
+    slope = 0.0
+    for k in range(n - 1, lo - 1, -1):
+        slope = slope * x + value
+        value = value * x + c[k]
+    return value, slope
+
+
+@inner
+def value(c, n, x):
+    """Value of the polynomial of degree n at x."""
+    result = c[n]
+    for k in range(n - 1, -1, -1):
+        result = result * x + c[k]
+    return result
+
+
+@inner
+def curvature(c, lo, n, x):
+    """Second derivative of q at x."""
+    result = 0.0
+    for k in range(n - lo, 1, -1):
+        result = result * x + k * (k - 1) * c[k + lo]
+    return result
+
+
+@inner
+def fourth_bound(c, lo, n):
+    """Upper bound on |q''''| over [0, 1]."""
+    bound = 0.0
+    for k in range(4, n - lo + 1):
+        bound += k * (k - 1) * (k - 2) * (k - 3) * abs(c[k + lo])
+    return bound
+
+
+@inner
+def locate_turn(c, lo, n, sign, a, b):
+    """The zero of q' in [a, b] where sign q'(a) < 0 < sign q'(b) and q'' keeps one sign."""
+    x = 0.5 * (a + b)
+    for _ in range(NEWTON_STEPS):
+        _, slope = value_slope(c, lo, n, x)
+        slope *= sign
+        if slope < 0.0:
+            a = x
+        elif slope > 0.0:
+            b = x
+        else:
+            break
+        bend = sign * curvature(c, lo, n, x)
+        step = x - slope / bend if bend != 0.0 else a
+        if not a < step < b:
+            step = 0.5 * (a + b)
+        if abs(step - x) <= 1e-16:
+            break
+        x = step
+    return x
+
+
+@inner
+def locate_root(c, lo, n, sign, a, b):
+    """The root of sign q in [a, b] where sign q(a) > 0 >= sign q(b) and it is the only one."""
+    x = 0.5 * (a + b)
+    for _ in range(NEWTON_STEPS):
+        height, slope = value_slope(c, lo, n, x)
+        height *= sign
+        slope *= sign
+        if height > 0.0:
+            a = x
+        elif height < 0.0:
+            b = x
+        else:
+            break
+        step = x - height / slope if slope != 0.0 else a
+        if not a <= step <= b:
+            step = 0.5 * (a + b)
+        if abs(step - x) <= 1e-16:
+            x = step
+            break
+        x = step
+    return x
+
+
+@inner
+def first_root(c, lo, n, sign):
+    """Smallest x in [0, 1] where sign q(x) falls to zero or below; NO_ROOT where it stays positive.
+
+    Zero leading coefficients are stripped: the polynomial that begins at zero is judged by where
+    it goes.  A polynomial that begins below zero has its root at 0.
+    """
+    while lo < n and c[lo] == 0.0:
+        lo += 1
+    if lo == n and c[n] == 0.0:
+        return NO_ROOT
+    x = 0.0
+    height = sign * c[lo]
+    if height <= 0.0:
+        return 0.0
+    slope = sign * c[lo + 1] if lo < n else 0.0
+    fourth = fourth_bound(c, lo, n)
+    w = 1.0
+    while x < 1.0:
+        if w >= 1.0 - x:
+            w = 1.0 - x
+            y = 1.0
+        else:
+            y = x + w
+        height_y, slope_y = value_slope(c, lo, n, y)
+        height_y *= sign
+        slope_y *= sign
+        lowest = min(min(height, height_y), min(height + w * slope / 3.0, height_y - w * slope_y / 3.0))
+        if lowest <= fourth * w**4 / 384.0:
+            bend = sign * curvature(c, lo, n, x)
+            bend_y = sign * curvature(c, lo, n, y)
+            margin = fourth * w * w / 8.0
+            if max(bend, bend_y) + margin < 0.0:
+                if height_y <= 0.0:
+                    return locate_root(c, lo, n, sign, x, y)
+            elif min(bend, bend_y) - margin > 0.0:
+                if slope < 0.0:
+                    bottom = y
+                    height_bottom = height_y
+                    if slope_y > 0.0:
+                        bottom = locate_turn(c, lo, n, sign, x, y)
+                        height_bottom = sign * value_slope(c, lo, n, bottom)[0]
+                    if height_bottom <= 0.0:
+                        return locate_root(c, lo, n, sign, x, bottom)
+            elif w <= SMALLEST_INTERVAL:
+                if height_y <= 0.0:
+                    return y
+            else:
+                w *= 0.5
+                continue
+        x = y
+        height = height_y
+        slope = slope_y
+        w *= 2.0
+    return NO_ROOT
+
+
+@inner
+def largest(c, n, sign, best):
+    """The greater of ``best`` and the maximum of sign p(x) over [0, 1]."""
+    x = 0.0
+    height = sign * c[0]
+    slope = sign * c[1]
+    end, _ = value_slope(c, 0, n, 1.0)
+    best = max(best, max(height, sign * end))
+    fourth = fourth_bound(c, 0, n)
+    w = 1.0
+    while x < 1.0:
+        if w >= 1.0 - x:
+            w = 1.0 - x
+            y = 1.0
+        else:
+            y = x + w
+        height_y, slope_y = value_slope(c, 0, n, y)
+        height_y *= sign
+        slope_y *= sign
+        highest = max(max(height, height_y), max(height + w * slope / 3.0, height_y - w * slope_y / 3.0))
+        if highest + fourth * w**4 / 384.0 > best:
+            bend = sign * curvature(c, 0, n, x)
+            bend_y = sign * curvature(c, 0, n, y)
+            margin = fourth * w * w / 8.0
+            if max(bend, bend_y) + margin < 0.0:
+                if slope > 0.0 > slope_y:
+                    top = locate_turn(c, 0, n, -sign, x, y)
+                    best = max(best, sign * value_slope(c, 0, n, top)[0])
+                best = max(best, height_y)
+            elif min(bend, bend_y) - margin > 0.0 or w <= SMALLEST_INTERVAL:
+                best = max(best, height_y)
+            else:
+                w *= 0.5
+                continue
+        x = y
+        height = height_y
+        slope = slope_y
+        w *= 2.0
+    return best
+
+
+@inner
+def largest_magnitude(c, n, best):
+    """The greater of ``best`` and the maximum of |p(x)| over [0, 1]."""
+    return largest(c, n, -1.0, largest(c, n, 1.0, best))

@@ -1,0 +1,34 @@
+"""What kernels are handed and hand back: NamedTuples of floats, phase and status codes."""
+
+from __future__ import annotations
+
+from typing import Final, NamedTuple
+
+STICK: Final = 0
+"""Phase: floor and brace move as one.  The slip phases are +1 and -1, the sign of the sliding velocity."""
+
+OK: Final = 0
+"""Status: the history is complete."""
+TRANSITION_CAP_REACHED: Final = 1
+"""Status: more changes of phase than the cap allows; results cover the motion up to there."""
+NON_FINITE_STATE: Final = 2
+"""Status: displacement or velocity is no longer a number."""
+
+STATUS_MEANINGS: Final = ("ok", "transition_cap_reached", "non_finite_state")
+"""Name of each status, in the order of the codes."""
+
+TRANSITION_CAP: Final = 50_000_000
+"""Changes of phase after which a history is given up: a guard against a loop, beyond any real one."""
+
+
+class Storey(NamedTuple):
+    """One storey with its brace and damper, SI units."""
+
+    floor_mass: float
+    floor_damping: float
+    floor_stiffness: float
+    brace_mass: float
+    brace_damping: float
+    brace_stiffness: float
+    slip_force: float
+    kinetic_slip_force: float
