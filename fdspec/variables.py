@@ -1,0 +1,223 @@
+"""Every variable that fdspec puts into a Dataset: its dims, units, type and one sentence.
+
+`CUBE` holds what `sweep` returns, `HISTORY` what `simulate` returns; both map a name to a `Variable`.
+`describe` checks a Dataset against one of them and writes the CF attributes. A new output is one more entry.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from fdspec.errors import InvalidInput
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+TEXT: Final = "str"
+"""The dtype of a variable that holds text, whichever way numpy stores it."""
+
+STUDY_DIMS: Final = ("record", "stiffness_ratio", "pretension", "period")
+"""The dims of the study's cube, slowest first."""
+
+
+@dataclass(frozen=True, slots=True)
+class Variable:
+    """One variable of a Dataset.
+
+    `units` is empty for text and for flags, which have none; `attributes` come on top of units and long_name.
+    """
+
+    name: str
+    dims: tuple[str, ...]
+    units: str
+    long_name: str
+    dtype: str = "float64"
+    attributes: Mapping[str, object] = field(default_factory=dict)
+
+    @property
+    def cf_attributes(self) -> dict[str, object]:
+        """The attributes as they stand in a file."""
+        units = {"units": self.units} if self.units else {}
+        return {**units, "long_name": self.long_name, **self.attributes}
+
+
+Registry = Mapping[str, Variable]
+
+
+def _registry(*groups: Iterable[Variable]) -> Registry:
+    variables = [variable for group in groups for variable in group]
+    names = [variable.name for variable in variables]
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        raise InvalidInput(f"each variable is registered once, but not {', '.join(twice)}")
+    return MappingProxyType({variable.name: variable for variable in variables})
+
+
+def _flags(codes: Mapping[int, str]) -> dict[str, object]:
+    return {"flag_values": np.array(list(codes), dtype=np.int8), "flag_meanings": " ".join(codes.values())}
+
+
+PHASES: Final = MappingProxyType({-1: "slip_backward", 0: "stick", 1: "slip_forward"})
+"""Phase code -> meaning; forward is a floor that moves faster than its brace."""
+
+STATUSES: Final = MappingProxyType({0: "ok", 1: "transition_cap_reached", 2: "non_finite_state"})
+"""Status code -> meaning, as the kernels return them."""
+
+
+def motion_variables(dims: tuple[str, ...]) -> tuple[Variable, ...]:
+    """Return what is told of a ground motion: over ("record",) in a cube, over () in a history."""
+    return (
+        Variable("record", dims, "", "name of the ground motion", TEXT),
+        Variable("pga", dims, "m/s^2", "peak ground acceleration, as applied"),
+        Variable("dt", dims, "s", "sampling interval of the ground motion"),
+        Variable("duration", dims, "s", "duration of the ground motion"),
+        Variable("samples", dims, "1", "number of samples of the ground motion", "int64"),
+        Variable("scale_factor", dims, "1", "factor by which the recorded acceleration was multiplied"),
+        Variable("event", dims, "", "earthquake that was recorded", TEXT),
+        Variable("station", dims, "", "station that recorded the ground motion", TEXT),
+        Variable("component", dims, "", "component of the ground motion", TEXT),
+        Variable("source", dims, "", "file or collection that the ground motion was read from", TEXT),
+        Variable("history", dims, "", "what was done to the ground motion since it was read", TEXT),
+        Variable("checksum", dims, "", "SHA-256 of the applied acceleration and its sampling interval", TEXT),
+    )
+
+
+def response_variables(grid: tuple[str, ...], storey: tuple[str, ...] = ()) -> tuple[Variable, ...]:
+    """Return what one history leaves in a sweep over `grid`.
+
+    `storey` holds the extra dims of what each storey has of its own: none for single-storey frames,
+    ("storey",) for buildings.
+    """
+    each = (*grid, *storey)
+    return (
+        Variable("peak_acceleration", each, "m/s^2", "peak absolute acceleration of the floor"),
+        Variable("peak_displacement", each, "m", "peak displacement of the floor relative to the ground"),
+        Variable("peak_velocity", each, "m/s", "peak velocity of the floor relative to the ground"),
+        Variable("peak_base_shear", grid, "N", "peak shear force on the ground, frame and brace together"),
+        Variable(
+            "residual_displacement", each, "m", "final displacement of the floor relative to the ground"
+        ),
+        Variable("slip_travel", each, "m", "total distance slipped in the damper"),
+        Variable("transitions", each, "1", "number of changes of phase of the damper", "int64"),
+        Variable("dissipated_energy", each, "J", "energy dissipated by friction in the damper"),
+        Variable("input_energy", grid, "J", "energy put in by the ground motion, in the ground's frame"),
+        Variable("energy_error", grid, "1", "error of the energy balance relative to the input energy"),
+        Variable("status", grid, "", "how the integration ended", "int8", _flags(STATUSES)),
+    )
+
+
+CUBE: Final[Registry] = _registry(
+    motion_variables(("record",)),
+    (
+        Variable(
+            "stiffness_ratio", ("stiffness_ratio",), "1", "stiffness of the brace over that of the frame"
+        ),
+        Variable("pretension", ("pretension",), "N", "pretension of the damper"),
+        Variable("period", ("period",), "s", "natural period of the frame without its brace"),
+        Variable("slip_force", ("pretension",), "N", "friction force at which the damper starts to slip"),
+        Variable("kinetic_slip_force", ("pretension",), "N", "friction force of the damper while it slips"),
+    ),
+    response_variables(STUDY_DIMS),
+    (
+        Variable(
+            "elastic_acceleration",
+            ("record", "period"),
+            "m/s^2",
+            "peak absolute acceleration of the floor with a damper that slides without friction",
+        ),
+        Variable(
+            "braced_acceleration",
+            ("record", "stiffness_ratio", "period"),
+            "m/s^2",
+            "peak absolute acceleration of the floor with a damper that never slips",
+        ),
+    ),
+)
+"""The variables of a sweep over single-storey frames, dims (record, stiffness_ratio, pretension, period)."""
+
+_OVER_TIME: Final = ("time",)
+_EACH: Final = ("time", "storey")
+_STOREY: Final = ("storey",)
+_TRANSITION: Final = ("transition",)
+
+HISTORY: Final[Registry] = _registry(
+    motion_variables(()),
+    (
+        Variable("time", _OVER_TIME, "s", "time since the start of the ground motion"),
+        Variable("storey", _STOREY, "1", "storey, counted from 1 at the ground", "int64"),
+        Variable("slip_force", _STOREY, "N", "friction force at which the damper starts to slip"),
+        Variable("kinetic_slip_force", _STOREY, "N", "friction force of the damper while it slips"),
+        Variable("ground_acceleration", _OVER_TIME, "m/s^2", "acceleration of the ground"),
+        Variable("displacement", _EACH, "m", "displacement of the floor relative to the ground"),
+        Variable("velocity", _EACH, "m/s", "velocity of the floor relative to the ground"),
+        Variable("acceleration", _EACH, "m/s^2", "absolute acceleration of the floor"),
+        Variable("drift", _EACH, "m", "displacement of the floor relative to the floor below"),
+        Variable("storey_shear", _EACH, "N", "shear force of frame and brace together"),
+        Variable("brace_displacement", _EACH, "m", "displacement of the brace relative to the ground"),
+        Variable("brace_velocity", _EACH, "m/s", "velocity of the brace relative to the ground"),
+        Variable("friction_force", _EACH, "N", "force of the damper, positive against forward slip"),
+        Variable("phase", _EACH, "", "phase of the damper", "int8", _flags(PHASES)),
+        Variable("slip_travel", _EACH, "m", "distance slipped in the damper so far"),
+        Variable("kinetic_energy", _OVER_TIME, "J", "kinetic energy relative to the ground"),
+        Variable("strain_energy", _OVER_TIME, "J", "elastic energy in frame and braces"),
+        Variable("viscous_energy", _OVER_TIME, "J", "energy dissipated by viscous damping"),
+        Variable("friction_energy", _OVER_TIME, "J", "energy dissipated by friction in all dampers"),
+        Variable("storey_friction_energy", _EACH, "J", "energy dissipated by friction in the damper"),
+        Variable(
+            "input_energy", _OVER_TIME, "J", "energy put in by the ground motion, in the ground's frame"
+        ),
+        Variable("transition_time", _TRANSITION, "s", "instant of the change of phase"),
+        Variable("transition_storey", _TRANSITION, "1", "storey of the change of phase", "int64"),
+        Variable("transition_phase", _TRANSITION, "", "phase after the change", "int8", _flags(PHASES)),
+        Variable("peak_acceleration", _STOREY, "m/s^2", "peak absolute acceleration of the floor"),
+        Variable("peak_displacement", _STOREY, "m", "peak displacement of the floor relative to the ground"),
+        Variable("peak_velocity", _STOREY, "m/s", "peak velocity of the floor relative to the ground"),
+        Variable("peak_drift", _STOREY, "m", "peak displacement of the floor relative to the floor below"),
+        Variable("peak_storey_shear", _STOREY, "N", "peak shear force of frame and brace together"),
+        Variable("peak_base_shear", (), "N", "peak shear force on the ground, frame and brace together"),
+        Variable(
+            "residual_displacement", _STOREY, "m", "final displacement of the floor relative to the ground"
+        ),
+        Variable(
+            "residual_drift", _STOREY, "m", "final displacement of the floor relative to the floor below"
+        ),
+        Variable("storey_transitions", _STOREY, "1", "number of changes of phase of the damper", "int64"),
+        Variable("transitions", (), "1", "number of changes of phase of all dampers", "int64"),
+        Variable("dissipated_energy", (), "J", "energy dissipated by friction in all dampers, in total"),
+        Variable("energy_error", (), "1", "error of the energy balance relative to the input energy"),
+        Variable("status", (), "", "how the integration ended", "int8", _flags(STATUSES)),
+    ),
+)
+"""The variables of one simulated history, dims time, storey and transition."""
+
+
+def describe(dataset: xr.Dataset, registry: Registry) -> xr.Dataset:
+    """Return `dataset` with the registry's attributes on every variable, coordinates included.
+
+    The values are shared with the input; attributes that its variables had are replaced, global ones stay.
+    Raise InvalidInput for a variable the registry does not know, or knows with other dims or another dtype.
+    Variables of the registry may be missing: a sweep computes what it was asked for.
+    """
+    described = dataset.copy(deep=False)
+    for key, array in described.variables.items():
+        name = str(key)
+        if name not in registry:
+            raise InvalidInput(f"variable {name!r} is not registered; known are {', '.join(registry)}")
+        variable = registry[name]
+        if array.dims != variable.dims:
+            raise InvalidInput(f"variable {name!r} has dims {array.dims}; it should have {variable.dims}")
+        if not _holds(array.dtype, variable.dtype):
+            raise InvalidInput(f"variable {name!r} has dtype {array.dtype}; it should have {variable.dtype}")
+        described[name].attrs = variable.cf_attributes
+    return described
+
+
+def _holds(dtype: np.dtype[np.generic], wanted: str) -> bool:
+    if wanted == TEXT:
+        return getattr(dtype, "kind", "O") in "UOT"
+    return dtype == np.dtype(wanted)

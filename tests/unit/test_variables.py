@@ -1,0 +1,110 @@
+"""The registry of variables: complete, consistent, and it refuses what it does not know."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from fdspec.errors import InvalidInput
+from fdspec.variables import CUBE, HISTORY, PHASES, STATUSES, STUDY_DIMS, describe, response_variables
+
+UNITS = {"m/s^2", "m", "m/s", "N", "J", "s", "kg", "1"}
+CONTRACT_OF_SWEEP = [
+    "peak_acceleration",
+    "peak_displacement",
+    "peak_velocity",
+    "peak_base_shear",
+    "residual_displacement",
+    "slip_travel",
+    "transitions",
+    "dissipated_energy",
+    "input_energy",
+    "energy_error",
+    "status",
+]
+
+
+@pytest.mark.parametrize("registry", [CUBE, HISTORY], ids=["cube", "history"])
+def test_every_variable_has_a_sentence_and_a_known_unit(registry):
+    for name, variable in registry.items():
+        assert variable.name == name
+        assert name.isidentifier()
+        assert variable.long_name
+        assert not variable.long_name.endswith(".")
+        if variable.dtype == "str" or "flag_values" in variable.attributes:
+            assert variable.units == ""
+            assert "units" not in variable.cf_attributes
+        else:
+            assert variable.units in UNITS
+
+
+@pytest.mark.parametrize("registry", [CUBE, HISTORY], ids=["cube", "history"])
+def test_same_name_means_same_unit_in_both(registry):
+    for name in set(CUBE) & set(HISTORY):
+        assert CUBE[name].units == HISTORY[name].units
+        assert CUBE[name].dtype == HISTORY[name].dtype
+
+
+@pytest.mark.parametrize("name", CONTRACT_OF_SWEEP)
+def test_what_sweep_promises_is_there_over_the_whole_grid(name):
+    assert CUBE[name].dims == STUDY_DIMS
+
+
+def test_types_that_are_not_floats():
+    assert CUBE["transitions"].dtype == "int64"
+    assert CUBE["status"].dtype == "int8"
+    assert HISTORY["phase"].dtype == "int8"
+
+
+def test_flags_name_every_code():
+    attributes = CUBE["status"].cf_attributes
+    assert attributes["flag_meanings"] == "ok transition_cap_reached non_finite_state"
+    np.testing.assert_array_equal(attributes["flag_values"], np.array([0, 1, 2], dtype=np.int8))
+    assert attributes["flag_values"].dtype == np.int8
+    assert len(str(HISTORY["phase"].cf_attributes["flag_meanings"]).split()) == len(PHASES)
+    assert len(str(attributes["flag_meanings"]).split()) == len(STATUSES)
+
+
+def test_a_sweep_over_buildings_adds_the_storey_only_to_what_a_storey_has():
+    grid = ("record", "building", "slip_scale", "stiffness_scale")
+    dims = {variable.name: variable.dims for variable in response_variables(grid, ("storey",))}
+    assert dims["peak_acceleration"] == (*grid, "storey")
+    assert dims["peak_base_shear"] == grid
+    assert dims["status"] == grid
+
+
+def _small_cube() -> xr.Dataset:
+    return xr.Dataset(
+        {"pga": ("record", [1.0, 2.0]), "status": (STUDY_DIMS, np.zeros((2, 1, 1, 3), np.int8))},
+        coords={"record": ["A", "B"], "period": [0.1, 0.2, 0.3]},
+        attrs={"title": "kept"},
+    )
+
+
+def test_describe_writes_attributes_and_leaves_its_input_alone():
+    cube = _small_cube()
+    cube["pga"].attrs["stale"] = "dropped"
+    described = describe(cube, CUBE)
+    assert described["pga"].attrs == {"units": "m/s^2", "long_name": CUBE["pga"].long_name}
+    assert described["record"].attrs == {"long_name": CUBE["record"].long_name}
+    assert described["period"].attrs["units"] == "s"
+    assert described.attrs == {"title": "kept"}
+    assert np.shares_memory(described["pga"].values, cube["pga"].values)
+    assert cube["pga"].attrs == {"stale": "dropped"}
+    assert cube["period"].attrs == {}
+
+
+@pytest.mark.parametrize(
+    ("change", "complaint"),
+    [
+        (
+            {"peak_sorrow": ("record", [0.0, 0.0])},
+            r"'peak_sorrow' is not registered; known are record, pga, ",
+        ),
+        ({"dt": ("period", [0.0, 0.0, 0.0])}, r"'dt' has dims \('period',\); it should have \('record',\)"),
+        ({"dt": ("record", [1, 2])}, r"'dt' has dtype int64; it should have float64"),
+        ({"source": ("record", [1.0, 2.0])}, r"'source' has dtype float64; it should have str"),
+    ],
+)
+def test_describe_refuses_what_the_registry_does_not_hold(change, complaint):
+    with pytest.raises(InvalidInput, match=complaint):
+        describe(_small_cube().assign(change), CUBE)
