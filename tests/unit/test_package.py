@@ -7,7 +7,10 @@ import pytest
 
 import fdspec
 
-HEAVY = set("click dask matplotlib netCDF4 numba numpy pandas pydantic rich scipy xarray".split())
+HEAVY = {
+    *("click", "dask", "matplotlib", "netCDF4", "numba", "numpy"),
+    *("pandas", "pydantic", "rich", "scipy", "xarray"),
+}
 
 
 def run(code: str) -> str:
