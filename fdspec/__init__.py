@@ -11,11 +11,11 @@ __version__ = "0.1.0"
 
 if TYPE_CHECKING:
     from fdspec.building import Building, DampingMatrix, ModalDamping, RayleighDamping
-    from fdspec.grid import Study
     from fdspec.motion import GroundMotion
     from fdspec.records import load_record, read_record
     from fdspec.simulate import simulate
     from fdspec.store import export, open, save  # noqa: A004
+    from fdspec.study import Study
     from fdspec.sweep import sweep
 
 __all__ = [
@@ -41,7 +41,7 @@ _HOME = {
     "GroundMotion": "motion",
     "ModalDamping": "building",
     "RayleighDamping": "building",
-    "Study": "grid",
+    "Study": "study",
     "export": "store",
     "load_record": "records",
     "open": "store",
