@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,23 +22,38 @@ STUDY_PERIOD: Final = tuple(k * 5 / 100 for k in range(1, 61))
 class Grid:
     """Hold the axes of a single-storey sweep and the numbers all its points share.
 
-    Every array-like is copied into a read-only float64 array; every mistake is reported, all at once.
+    Every array_like is copied into a read-only float64 array; all mistakes are reported at once.
 
-    Args:
-        stiffness_ratio: (n_sr,) brace over frame stiffness, k_d / k_f.
-        pretension: (n_f,) N, the total normal force on the sliding surface; 0 slides freely, infinity never.
-        period: (n_t,) s, of the frame without its brace.
-        floor_mass: kg.
-        brace_mass: kg; 0 is the massless brace (bilinear hysteresis).
-        damping_ratio: of the frame without its brace, 0 <= ratio < 1.
-        friction_coefficient: static; also kinetic unless that is given.
-        kinetic_friction_coefficient: while sliding, at most the static one.
-        normal_force_factor: normal force for each newton of `pretension`; for n_b bolts and two faces, where
-            `pretension` is the force of one bolt, 2 n_b.
-        brace_damping_ratio: of the brace on its own, 0 <= ratio < 1.
+    Parameters
+    ----------
+    stiffness_ratio : array_like, shape (n_sr,)
+        Brace over frame stiffness, k_d / k_f.
+    pretension : array_like, shape (n_f,), N
+        Total normal force on the sliding surface; with 0 the damper slides freely, with infinity never.
+    period : array_like, shape (n_t,), s
+        Of the frame without its brace.
+    floor_mass, brace_mass : float, kg
+        A brace mass of 0 is the massless brace (bilinear hysteresis).
+    damping_ratio, brace_damping_ratio : float
+        Of the frame without its brace and of the brace on its own, 0 <= ratio < 1.
+    friction_coefficient, kinetic_friction_coefficient : float
+        At the start of slip and while sliding; the kinetic one is at most the static one, its default.
+    normal_force_factor : float
+        Newtons on the sliding surface for each newton of `pretension`: 2 n_b where `pretension` is the force
+        of one of n_b bolts that clamp two faces.
 
-    Raises:
-        InvalidInput: An argument is not usable; the message names it, the value and its index.
+    Raises
+    ------
+    InvalidInput
+        When an argument cannot be used; the text names it, the value and its index.
+
+    Examples
+    --------
+    >>> grid = Grid(stiffness_ratio=[2, 4], pretension=[50e3, 100e3, 150e3], period=[0.3, 0.5])
+    >>> grid.shape, grid.size
+    ((2, 3, 2), 12)
+    >>> grid.slip_force
+    array([25000., 50000., 75000.])
     """
 
     stiffness_ratio: FloatArray
@@ -60,7 +75,7 @@ class Grid:
             except ValueError as error:
                 mistakes.append(f"{name}: {error}")
         if not mistakes:
-            mistakes = [f"{name}: {sentence}" for name, sentence in contradictions(self)]
+            mistakes = [f"{name}: {sentence}" for name, sentence in contradictions(vars(self))]
         if mistakes:
             raise InvalidInput("; ".join(mistakes))
 
@@ -106,18 +121,18 @@ def checked(name: str, value: object) -> FloatArray | float | None:
     return _CHECKS[name](value)
 
 
-def contradictions(grid: "Grid") -> list[tuple[str, str]]:
-    """List (field, sentence) for fields that are right alone and wrong together."""
+def contradictions(values: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """List (field, sentence) for fields of `Grid` that are right alone and wrong together."""
     found = []
-    kinetic = grid.kinetic_friction_coefficient
-    if kinetic is not None and kinetic > grid.friction_coefficient:
+    static, kinetic = values["friction_coefficient"], values["kinetic_friction_coefficient"]
+    if kinetic is not None and kinetic > static:
         found.append(
             (
                 "kinetic_friction_coefficient",
-                f"must be at most friction_coefficient, {grid.friction_coefficient:g}, got {kinetic:g}",
+                f"must be at most friction_coefficient, {static:g}, got {kinetic:g}",
             )
         )
-    if grid.friction_coefficient == 0.0 and np.isinf(grid.pretension[-1]):
+    if static == 0.0 and np.isinf(values["pretension"][-1]):
         found.append(("friction_coefficient", "must be positive where pretension is infinite, got 0"))
     return found
 

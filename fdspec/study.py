@@ -1,0 +1,297 @@
+"""A study: everything one sweep needs, as a TOML file that a person writes."""
+
+import difflib
+import json
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from decimal import Decimal
+from functools import partial
+from pathlib import Path
+from typing import Annotated, Any, Final
+
+import numpy as np
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    PlainValidator,
+    StrictBool,
+    StrictStr,
+    ValidationError,
+    create_model,
+)
+
+from fdspec.errors import RecordError, StudyError
+from fdspec.grid import GRID_FIELDS, FloatArray, Grid, checked, contradictions
+from fdspec.motion import GroundMotion
+from fdspec.records import catalogue, load_record, read_record
+from fdspec.toml_lines import key_lines, line_of
+from fdspec.variables import CUBE
+
+AXES: Final = ("stiffness_ratio", "pretension", "period")
+
+STUDY_RECORDS: Final = ("FSR1", "FSR2", "FSR3", "FMR1", "FMR2", "FMR3", "FHR1", "FHR2", "FHR3")
+
+OUTPUTS: Final = tuple(v.name for v in CUBE.values() if v.dims[:1] == ("record",) and len(v.dims) > 1)
+"""What a study may ask for: the variables of a cube that depend on more than the record."""
+
+MAX_AXIS: Final = 1_000_000
+"""Points of one axis; a step with a slipped decimal is refused before it fills the memory."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Study:
+    """Hold every argument of a sweep and the records it runs on; without arguments, the study of the nine.
+
+    Parameters
+    ----------
+    grid : Grid
+        Axes and scalars.
+    records : tuple of str
+        Names of the catalogue, or paths of record files relative to `folder`.
+    scaled : bool
+        Whether the catalogue's stand-ins are scaled to the study's PGA.
+    outputs : tuple of str or None
+        Variables of the cube; None for all.
+    certify : bool
+        Whether the energy balance of every history is checked.
+    folder : Path
+        Where relative paths start: the study file's folder.
+    """
+
+    grid: Grid = field(default_factory=Grid.study)
+    records: tuple[str, ...] = STUDY_RECORDS
+    scaled: bool = True
+    outputs: tuple[str, ...] | None = None
+    certify: bool = True
+    folder: Path = Path()
+
+    @classmethod
+    def read(cls, path: str | Path) -> "Study":
+        """Read a study file; a field it does not name has the study's value.
+
+        Raises
+        ------
+        StudyError
+            When the file cannot be used; one line of text for each mistake, with field and line number.
+        """
+        path = Path(path)
+        try:
+            text = path.read_text(encoding="utf-8")
+        except OSError as error:
+            raise StudyError(f"{path}: cannot be read ({error.strerror})") from None
+        except UnicodeDecodeError:
+            raise StudyError(f"{path}: is not a text file in UTF-8") from None
+        return cls.parse(text, name=str(path), folder=path.parent)
+
+    @classmethod
+    def parse(cls, text: str, *, name: str = "study", folder: Path = Path()) -> "Study":
+        """Read a study from TOML text; `name` stands for the file in error messages."""
+        try:
+            table = tomllib.loads(text)
+        except tomllib.TOMLDecodeError as error:
+            raise StudyError(f"{name}: is not TOML: {error}") from None
+        values: dict[str, Any] = {}
+        try:
+            values = dict(_StudyFile.model_validate(table))
+        except ValidationError as error:
+            mistakes = [_mistake(detail["loc"], detail["type"], detail["msg"]) for detail in error.errors()]
+        else:
+            mistakes = [((key,), f"{key}: {sentence}") for key, sentence in contradictions(values)]
+        if mistakes:
+            lines = key_lines(text)
+            placed = sorted((line_of(lines, where), sentence) for where, sentence in mistakes)
+            raise StudyError("\n".join(f"{name}, line {line}: {sentence}" for line, sentence in placed))
+        grid = Grid(**{key: values.pop(key) for key in GRID_FIELDS})
+        return cls(grid=grid, folder=folder, **values)
+
+    def motions(self) -> tuple[GroundMotion, ...]:
+        """Load the records, in order.
+
+        Raises
+        ------
+        RecordError
+            When some cannot be used; one line of text for each.
+        """
+        found, mistakes = [], []
+        for record in self.records:
+            try:
+                found.append(find_record(record, folder=self.folder, scaled=self.scaled))
+            except RecordError as error:
+                mistakes.append(str(error))
+        if mistakes:
+            raise RecordError("\n".join(mistakes))
+        return tuple(found)
+
+    def to_toml(self) -> str:
+        """Return the study as the text of a study file, every field named, to be edited."""
+        grid = self.grid
+        kinetic = grid.kinetic_friction_coefficient
+        return f"""\
+# A study of fdspec: every (record, stiffness ratio, pretension, period). Units are SI.
+# A field left out has the value of the study on the nine records.
+
+# Names of the catalogue (fdspec records list) or record files, relative to this file.
+records = {_strings(self.records)}
+# Scale the stand-ins of the catalogue to the study's peak ground acceleration.
+scaled = {_bool(self.scaled)}
+
+# Axes: a list, {{ start, stop, step }} or {{ start, stop, num }}, ends included.
+# Brace over frame stiffness.
+stiffness_ratio = {_axis_text(grid.stiffness_ratio)}
+# N, the total normal force on the sliding surface; 0 slides freely, inf never.
+pretension = {_axis_text(grid.pretension)}
+# s, of the frame without its brace.
+period = {_axis_text(grid.period)}
+
+# kg
+floor_mass = {grid.floor_mass!r}
+# kg; 0.0 is the massless brace.
+brace_mass = {grid.brace_mass!r}
+# Of the frame without its brace.
+damping_ratio = {grid.damping_ratio!r}
+friction_coefficient = {grid.friction_coefficient!r}
+# While sliding, at most the one above; left out, equal to it.
+{"# kinetic_friction_coefficient = 0.4" if kinetic is None else f"kinetic_friction_coefficient = {kinetic!r}"}
+# Newtons on the sliding surface for each newton of pretension.
+normal_force_factor = {grid.normal_force_factor!r}
+# Of the brace on its own.
+brace_damping_ratio = {grid.brace_damping_ratio!r}
+
+# Variables of the cube; left out, all of them.
+{"# " if self.outputs is None else ""}outputs = {_strings(OUTPUTS if self.outputs is None else self.outputs)}
+# Check the energy balance of every history.
+certify = {_bool(self.certify)}
+"""
+
+
+def find_record(record: str, *, folder: Path = Path(), scaled: bool = True) -> GroundMotion:
+    """Load a record by its name in the catalogue or, when it is none, by its path relative to `folder`.
+
+    Raises
+    ------
+    RecordError
+        When there is no such name and no such file, or the file cannot be used.
+    """
+    path = folder / record
+    is_name = any(record == entry.name for entry in catalogue())
+    looks_like_path = path.suffix or len(Path(record).parts) > 1 or path.exists()
+    if is_name or not looks_like_path:
+        return load_record(record, scaled=scaled)
+    return read_record(path)
+
+
+def even_axis(spec: Mapping[str, Any]) -> FloatArray:
+    """Return the points of { start, stop, step } or { start, stop, num }, both ends included.
+
+    Steps are counted in decimals, so that 0.05, 0.10, ... are the floats one would write.
+    """
+    if unknown := [key for key in spec if key not in {"start", "stop", "step", "num"}]:
+        raise ValueError(
+            f"unknown key {unknown[0]!r}; {{ start, stop, step }} or {{ start, stop, num }} is known"
+        )
+    if "start" not in spec or "stop" not in spec or ("step" in spec) == ("num" in spec):
+        raise ValueError(f"needs start, stop and one of step and num, got {', '.join(spec) or 'nothing'}")
+    for key, value in spec.items():
+        if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value):
+            raise ValueError(f"{key} must be a finite number, got {value!r}")
+    start, stop = Decimal(repr(spec["start"])), Decimal(repr(spec["stop"]))
+    if "num" in spec:
+        if not isinstance(spec["num"], int) or not 2 <= spec["num"] <= MAX_AXIS:
+            raise ValueError(f"num must be an integer from 2 to {MAX_AXIS}, got {spec['num']}")
+        steps = spec["num"] - 1
+        return np.array([float(start + (stop - start) * k / steps) for k in range(steps + 1)])
+    step = Decimal(repr(spec["step"]))
+    if step <= 0 or stop < start:
+        raise ValueError(f"step must be positive and stop not before start, got {start} to {stop} by {step}")
+    if (stop - start) / step >= MAX_AXIS:
+        raise ValueError(f"has more than {MAX_AXIS} points: {start} to {stop} by {step}")
+    if (stop - start) % step:
+        raise ValueError(f"steps of {step} from {start} do not end on {stop}")
+    return np.array([float(start + step * k) for k in range(int((stop - start) / step) + 1)])
+
+
+def _mistake(where: tuple[str | int, ...], kind: str, message: str) -> tuple[tuple[str | int, ...], str]:
+    """Turn one of pydantic's complaints into a sentence that names the field."""
+    name = str(where[0])
+    if kind == "extra_forbidden":
+        near = difflib.get_close_matches(name, _StudyFile.model_fields, n=1)
+        hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(_StudyFile.model_fields)}"
+        return where, f"{name}: is not a field of a study; {hint}"
+    if kind == "value_error":
+        return where, f"{name}: {message.removeprefix('Value error, ')}"
+    at = f" at index {where[1]}" if len(where) > 1 else ""
+    return where, f"{name}: {_TYPE_MISTAKES.get(kind, message)}{at}"
+
+
+_TYPE_MISTAKES: Final = {
+    "bool_type": "must be true or false",
+    "string_type": "must be a string",
+    "tuple_type": "must be a list",
+}
+"""What pydantic calls a wrong type, in the words of TOML."""
+
+
+def _field(name: str, value: object) -> object:
+    if name in AXES and isinstance(value, dict):
+        value = even_axis(value)
+    return checked(name, value)
+
+
+def _names(value: tuple[str, ...], *, known: tuple[str, ...] = ()) -> tuple[str, ...]:
+    if not value:
+        raise ValueError("must name at least one, is empty")
+    for index, name in enumerate(value):
+        if name in value[:index]:
+            raise ValueError(f"names {name!r} twice")
+        if known and name not in known:
+            near = difflib.get_close_matches(name, known, n=1)
+            hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
+            raise ValueError(f"does not know {name!r}; {hint}")
+    return value
+
+
+def _study_file() -> type[BaseModel]:
+    """Build the model of a study file from the fields of `Grid`, so that there is one list of them."""
+    study = Grid.study()
+    scalars_and_axes: Any = {
+        name: (Annotated[Any, PlainValidator(partial(_field, name))], getattr(study, name))
+        for name in GRID_FIELDS
+    }
+    names = Annotated[tuple[StrictStr, ...], AfterValidator(_names)]
+    outputs = Annotated[tuple[StrictStr, ...], AfterValidator(partial(_names, known=OUTPUTS))]
+    return create_model(
+        "StudyFile",
+        __config__=ConfigDict(extra="forbid"),
+        records=(names, STUDY_RECORDS),
+        scaled=(StrictBool, True),
+        outputs=(outputs | None, None),
+        certify=(StrictBool, True),
+        **scalars_and_axes,
+    )
+
+
+_StudyFile: Final = _study_file()
+
+
+def _axis_text(axis: FloatArray) -> str:
+    """Write an axis as { start, stop, step } where that gives the same floats, else as a list."""
+    if axis.size > 3:
+        start, second, stop = (Decimal(repr(float(axis[k]))) for k in (0, 1, -1))
+        spec = {"start": float(start), "stop": float(stop), "step": float(second - start)}
+        try:
+            even = np.array_equal(even_axis(spec), axis)
+        except ValueError:
+            even = False
+        if even:
+            return "{ " + ", ".join(f"{key} = {value!r}" for key, value in spec.items()) + " }"
+    return "[" + ", ".join(repr(float(value)) for value in axis) + "]"
+
+
+def _strings(values: tuple[str, ...]) -> str:
+    return "[" + ", ".join(json.dumps(value, ensure_ascii=False) for value in values) + "]"
+
+
+def _bool(value: bool) -> str:
+    return "true" if value else "false"
