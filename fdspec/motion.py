@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Final
@@ -79,7 +80,7 @@ class GroundMotion:
         station: str = "",
         component: str = "",
         source: str = "",
-        history: tuple[str, ...] = (),
+        history: Sequence[str] = (),
         scale_factor: float = 1.0,
     ) -> None:
         samples = _samples(acceleration)
@@ -91,10 +92,10 @@ class GroundMotion:
             raise InvalidInput(f"history must be a sequence of strings, one a step, not {history!r}")
         fields = {
             "acceleration": samples,
-            "dt": _positive("dt", dt, "s"),
+            "dt": positive_number("dt", dt, "s"),
             **texts,
             "history": tuple(history),
-            "scale_factor": _finite("scale_factor", scale_factor),
+            "scale_factor": finite_number("scale_factor", scale_factor),
         }
         for key, value in fields.items():
             object.__setattr__(self, key, value)
@@ -118,7 +119,7 @@ class GroundMotion:
 
     @property
     def time(self) -> NDArray[np.float64]:
-        """Time of each sample from the first, s, shape (n,); from ``k * dt``, so that no rounding piles up."""
+        """Time of each sample from the first, s, shape (n,); from ``k * dt``: rounding does not pile up."""
         return np.arange(self.n, dtype=np.float64) * self.dt
 
     @cached_property
@@ -128,21 +129,23 @@ class GroundMotion:
 
     @cached_property
     def checksum(self) -> str:
-        """SHA-256 of the samples and dt (little-endian float64), hexadecimal: the same numbers, the same text."""
+        """SHA-256 of samples and dt (little-endian float64), hexadecimal: same numbers, same text."""
         digest = hashlib.sha256(self.acceleration.astype("<f8", copy=False).tobytes())
         digest.update(np.array(self.dt, dtype="<f8").tobytes())
         return digest.hexdigest()
 
     def scaled(self, factor: float) -> GroundMotion:
         """Return this motion times `factor` (a negative one mirrors it)."""
-        factor = _finite("factor", factor)
+        factor = finite_number("factor", factor)
         return self._rescaled(factor, f"scaled by {factor!r}")
 
     def scaled_to_pga(self, pga: float) -> GroundMotion:
         """Return this motion scaled to a peak of `pga`, m/s2."""
-        pga = _positive("pga", pga, "m/s2")
+        pga = positive_number("pga", pga, "m/s2")
         if self.pga == 0.0:
-            raise InvalidInput(f"{self._title()} is zero throughout and cannot be scaled to a PGA of {pga!r} m/s2")
+            raise InvalidInput(
+                f"{self._title()} is zero throughout: no factor gives it a PGA of {pga!r} m/s2"
+            )
         factor = pga / self.pga
         return self._rescaled(factor, f"scaled by {factor!r} to a PGA of {pga!r} m/s2")
 
@@ -202,13 +205,14 @@ def _samples(acceleration: ArrayLike) -> NDArray[np.float64]:
     if not finite.all():
         first = int(np.argmin(finite))
         raise InvalidInput(
-            f"acceleration must be finite, but sample {first} (counted from 0) of {samples.size} is {samples[first]}"
+            f"acceleration must be finite, but sample {first} (counted from 0) is {samples[first]}"
         )
     samples.flags.writeable = False
     return samples
 
 
-def _finite(argument: str, value: float) -> float:
+def finite_number(argument: str, value: float) -> float:
+    """Return `value` as a float, or say which argument is no finite number."""
     try:
         number = float(value)
     except (TypeError, ValueError):
@@ -218,8 +222,9 @@ def _finite(argument: str, value: float) -> float:
     return number
 
 
-def _positive(argument: str, value: float, unit: str) -> float:
-    number = _finite(argument, value)
+def positive_number(argument: str, value: float, unit: str) -> float:
+    """Return `value` as a float, or say which argument is not positive."""
+    number = finite_number(argument, value)
     if number <= 0.0:
         raise InvalidInput(f"{argument} must be positive, in {unit}, not {value!r}")
     return number

@@ -1,0 +1,26 @@
+"""What a reader hands over: one channel of a file, in SI units, with the file's own words about it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One acceleration channel of a record file.
+
+    `name` is how a caller picks it among others of the file, `acceleration` is in m/s2, `dt` in s, `units`
+    are those of the file, `processing` says what the agency did to the samples, one step an item.
+    """
+
+    name: str
+    acceleration: NDArray[np.float64]
+    dt: float
+    units: str
+    event: str = ""
+    station: str = ""
+    component: str = ""
+    processing: tuple[str, ...] = ()
