@@ -133,7 +133,10 @@ def test_an_axis_may_be_a_table() -> None:
             "period = { start = 1, stop = 2, step = -1 }",
             "period: step must be positive and stop not before start, got 1 to 2 by -1",
         ),
-        ("period = { start = 1, stop = 2, num = 1 }", "period: num must be an integer from 2 to 1000000, got 1"),
+        (
+            "period = { start = 1, stop = 2, num = 1 }",
+            "period: num must be an integer from 2 to 1000000, got 1",
+        ),
         (
             "period = { start = 1, stop = 2, step = 1e-9 }",
             "period: has more than 1000000 points: 1 to 2 by 1E-9",
@@ -150,9 +153,12 @@ def test_an_axis_may_be_a_table() -> None:
         ("records = ['FSR1', 2]", "records: must be a string at index 1"),
         ("records = []", "records: must name at least one, is empty"),
         ("records = ['a', 'b', 'a']", "records: names 'a' twice"),
-        ("outputs = ['peak_aceleration']", "outputs: does not know 'peak_aceleration'; did you mean 'peak_acceleration'?"),
+        (
+            "outputs = ['peak_aceleration']",
+            "outputs: does not know 'peak_aceleration'; did you mean 'peak_acceleration'?",
+        ),
     ],
-)  # fmt: skip
+)
 def test_a_mistake_names_its_field_and_its_line(line: str, mistake: str) -> None:
     assert refused(f"# a comment\n\n{line}\n") == [f"study, line 3: {mistake}"]
 
