@@ -1,0 +1,110 @@
+"""Write a file as a whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Final
+
+from fdspec.errors import StoreError
+
+NETCDF_SUFFIXES: Final = (".nc", ".nc4", ".netcdf", ".cdf")
+
+
+def check_writable(
+    path: str | os.PathLike[str], *, suffixes: tuple[str, ...] = NETCDF_SUFFIXES, overwrite: bool = True
+) -> Path:
+    """Make sure that a file can be written at `path`, before the work that fills it.
+
+    Nothing is left behind and nothing that exists is touched.
+
+    Parameters
+    ----------
+    path : path
+        The file to be written. Its folder must exist.
+    suffixes : tuple of str
+        What the name may end with; a name without any suffix passes too.
+    overwrite : bool
+        Whether a file that exists may be replaced.
+
+    Returns
+    -------
+    Path
+        The file itself, with symbolic links followed.
+
+    Raises
+    ------
+    StoreError
+        When it cannot be written; the text says why and what would be right.
+    """
+    given = Path(path)
+    target = given.resolve()
+    folder = target.parent
+    if target.is_dir():
+        raise StoreError(f"cannot write {given}: it is a folder; name a file, such as {given / 'cube.nc'}")
+    if given.suffix and given.suffix.lower() not in suffixes:
+        raise StoreError(f"cannot write {given}: the name should end in {' or '.join(suffixes)}")
+    if not folder.is_dir():
+        raise StoreError(f"cannot write {given}: there is no folder {given.parent}; make it first")
+    if target.exists():
+        if not overwrite:
+            raise StoreError(f"cannot write {given}: it exists already; remove it or allow overwriting")
+        if not target.is_file():
+            raise StoreError(f"cannot write {given}: it is no regular file; give the name of one")
+        if not os.access(target, os.W_OK):
+            raise StoreError(f"cannot write {given}: the file is write-protected; give another name")
+    try:
+        # Asking for permission bits is not enough: root, network and read-only file systems answer otherwise.
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise StoreError(
+            f"cannot write {given}: the folder {given.parent} takes no files ({_reason(error)}); "
+            "give a file in another folder"
+        ) from error
+    return target
+
+
+@contextmanager
+def replacing(
+    path: str | os.PathLike[str], *, suffixes: tuple[str, ...] = NETCDF_SUFFIXES, overwrite: bool = True
+) -> Iterator[Path]:
+    """Give a name to write to; what was written there becomes `path` when the block ends without error.
+
+    The name is a new one in the same folder, so that the last step is one rename: whoever reads `path` finds
+    the old file or the whole new one, also when this process is killed or the machine stops. After any error,
+    KeyboardInterrupt included, the new file is removed.
+    """
+    target = check_writable(path, suffixes=suffixes, overwrite=overwrite)
+    part = target.with_name(f".fdspec-{os.getpid()}-{secrets.token_hex(4)}.part")
+    try:
+        yield part
+        with part.open("rb+") as written:
+            os.fsync(written.fileno())
+        part.replace(target)
+        _sync_folder(target.parent)
+    except OSError as error:
+        if isinstance(error, StoreError):
+            raise
+        raise StoreError(f"cannot write {path}: {_reason(error)}") from error
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def _sync_folder(folder: Path) -> None:
+    """Make the rename itself durable where folders can be opened (not on Windows)."""
+    if os.name != "posix":
+        return
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def _reason(error: OSError) -> str:
+    return error.strerror or str(error)
