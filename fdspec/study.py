@@ -4,7 +4,7 @@ import difflib
 import json
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 from decimal import Decimal
 from functools import partial
 from pathlib import Path
@@ -40,6 +40,20 @@ MAX_AXIS: Final = 1_000_000
 """Points of one axis; a step with a slipped decimal is refused before it fills the memory."""
 
 
+@dataclass(frozen=True)
+class RecordFile:
+    """Name a record file and what it does not say of itself; see `fdspec.read_record`.
+
+    `path` is relative to the study file's folder, `units` one of g, m/s2, cm/s2, mm/s2, `dt` in s.
+    """
+
+    path: str
+    units: str | None = None
+    dt: float | None = None
+    channel: str | None = None
+    name: str | None = None
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Study:
     """Hold every argument of a sweep and the records it runs on; without arguments, the study of the nine.
@@ -48,8 +62,8 @@ class Study:
     ----------
     grid : Grid
         Axes and scalars.
-    records : tuple of str
-        Names of the catalogue, or paths of record files relative to `folder`.
+    records : tuple of str or RecordFile
+        Names of the catalogue, or record files.
     scaled : bool
         Whether the catalogue's stand-ins are scaled to the study's PGA.
     outputs : tuple of str or None
@@ -61,7 +75,7 @@ class Study:
     """
 
     grid: Grid = field(default_factory=Grid.study)
-    records: tuple[str, ...] = STUDY_RECORDS
+    records: tuple[str | RecordFile, ...] = STUDY_RECORDS
     scaled: bool = True
     outputs: tuple[str, ...] | None = None
     certify: bool = True
@@ -132,8 +146,9 @@ class Study:
 # A study of fdspec: every (record, stiffness ratio, pretension, period). Units are SI.
 # A field left out has the value of the study on the nine records.
 
-# Names of the catalogue (fdspec records list) or record files, relative to this file.
-records = {_strings(self.records)}
+# Names of the catalogue (fdspec records list) or record files, relative to this file; what a file does not
+# say of itself goes into a table: {{ path = "a.txt", units = "g", dt = 0.01, channel = "EW", name = "mine" }}.
+records = {_records_text(self.records)}
 # Scale the stand-ins of the catalogue to the study's peak ground acceleration.
 scaled = {_bool(self.scaled)}
 
@@ -166,7 +181,7 @@ certify = {_bool(self.certify)}
 """
 
 
-def find_record(record: str, *, folder: Path = Path(), scaled: bool = True) -> GroundMotion:
+def find_record(record: str | RecordFile, *, folder: Path = Path(), scaled: bool = True) -> GroundMotion:
     """Load a record by its name in the catalogue or, when it is none, by its path relative to `folder`.
 
     Raises
@@ -174,12 +189,15 @@ def find_record(record: str, *, folder: Path = Path(), scaled: bool = True) -> G
     RecordError
         When there is no such name and no such file, or the file cannot be used.
     """
-    path = folder / record
-    is_name = any(record == entry.name for entry in catalogue())
-    looks_like_path = path.suffix or len(Path(record).parts) > 1 or path.exists()
-    if is_name or not looks_like_path:
-        return load_record(record, scaled=scaled)
-    return read_record(path)
+    if isinstance(record, str):
+        is_name = any(record.upper() == entry.name for entry in catalogue())
+        path = folder / record
+        looks_like_path = bool(path.suffix) or len(Path(record).parts) > 1 or path.exists()
+        if is_name or not looks_like_path:
+            return load_record(record, scaled=scaled)
+        record = RecordFile(record)
+    about = {key: value for key, value in asdict(record).items() if key != "path"}
+    return read_record(folder / record.path, **about)
 
 
 def even_axis(spec: Mapping[str, Any]) -> FloatArray:
@@ -239,16 +257,40 @@ def _field(name: str, value: object) -> object:
     return checked(name, value)
 
 
-def _names(value: tuple[str, ...], *, known: tuple[str, ...] = ()) -> tuple[str, ...]:
-    if not value:
+def _record(value: object) -> str | RecordFile:
+    if isinstance(value, str):
+        return value
+    if not isinstance(value, dict):
+        raise ValueError(f"must be a name, a path or a table, got {value!r}")
+    known = [field.name for field in fields(RecordFile)]
+    if unknown := [key for key in value if key not in known]:
+        raise ValueError(f"unknown key {unknown[0]!r} of a record; known are {', '.join(known)}")
+    if "path" not in value:
+        raise ValueError("a record given as a table needs path, its file")
+    for key, part in value.items():
+        if key == "dt" and (
+            isinstance(part, bool) or not isinstance(part, int | float) or not 0 < part < np.inf
+        ):
+            raise ValueError(f"dt of a record must be positive seconds, got {part!r}")
+        if key != "dt" and not isinstance(part, str):
+            raise ValueError(f"{key} of a record must be a string, got {part!r}")
+    return RecordFile(**value)
+
+
+def _distinct(values: tuple[Any, ...]) -> tuple[Any, ...]:
+    if not values:
         raise ValueError("must name at least one, is empty")
-    for index, name in enumerate(value):
-        if name in value[:index]:
-            raise ValueError(f"names {name!r} twice")
-        if known and name not in known:
-            near = difflib.get_close_matches(name, known, n=1)
-            hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
-            raise ValueError(f"does not know {name!r}; {hint}")
+    for index, value in enumerate(values):
+        if value in values[:index]:
+            raise ValueError(f"names {value!r} twice")
+    return values
+
+
+def _output(value: str) -> str:
+    if value not in OUTPUTS:
+        near = difflib.get_close_matches(value, OUTPUTS, n=1)
+        hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(OUTPUTS)}"
+        raise ValueError(f"does not know {value!r}; {hint}")
     return value
 
 
@@ -259,12 +301,13 @@ def _study_file() -> type[BaseModel]:
         name: (Annotated[Any, PlainValidator(partial(_field, name))], getattr(study, name))
         for name in GRID_FIELDS
     }
-    names = Annotated[tuple[StrictStr, ...], AfterValidator(_names)]
-    outputs = Annotated[tuple[StrictStr, ...], AfterValidator(partial(_names, known=OUTPUTS))]
+    records = Annotated[tuple[Annotated[Any, PlainValidator(_record)], ...], AfterValidator(_distinct)]
+    output = Annotated[StrictStr, AfterValidator(_output)]
+    outputs = Annotated[tuple[output, ...], AfterValidator(_distinct)]
     return create_model(
         "StudyFile",
         __config__=ConfigDict(extra="forbid"),
-        records=(names, STUDY_RECORDS),
+        records=(records, STUDY_RECORDS),
         scaled=(StrictBool, True),
         outputs=(outputs | None, None),
         certify=(StrictBool, True),
@@ -289,8 +332,27 @@ def _axis_text(axis: FloatArray) -> str:
     return "[" + ", ".join(repr(float(value)) for value in axis) + "]"
 
 
+def _records_text(records: tuple[str | RecordFile, ...]) -> str:
+    return (
+        "[" + ", ".join(_string(one) if isinstance(one, str) else _table_text(one) for one in records) + "]"
+    )
+
+
+def _table_text(record: RecordFile) -> str:
+    given = {key: value for key, value in asdict(record).items() if value is not None}
+    parts = [
+        f"{key} = {_string(value) if isinstance(value, str) else repr(value)}" for key, value in given.items()
+    ]
+    return "{ " + ", ".join(parts) + " }"
+
+
+def _string(value: str) -> str:
+    """Write a TOML string: JSON's escapes are TOML's, but for the delete character."""
+    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007F")
+
+
 def _strings(values: tuple[str, ...]) -> str:
-    return "[" + ", ".join(json.dumps(value, ensure_ascii=False) for value in values) + "]"
+    return "[" + ", ".join(map(_string, values)) + "]"
 
 
 def _bool(value: bool) -> str:

@@ -8,7 +8,7 @@ import pytest
 from fdspec.errors import RecordError, StudyError
 from fdspec.grid import GRID_FIELDS, Grid
 from fdspec.records import catalogue
-from fdspec.study import OUTPUTS, STUDY_RECORDS, Study, even_axis, find_record
+from fdspec.study import OUTPUTS, STUDY_RECORDS, RecordFile, Study, even_axis, find_record
 
 
 def same(one: Study, other: Study) -> bool:
@@ -71,7 +71,7 @@ def test_any_study_survives_being_written_and_read() -> None:
             brace_mass=0,
             kinetic_friction_coefficient=0.1,
         ),
-        records=("FSR1", 'odd "name".AT2', "ordner/größe.AT2"),
+        records=("FSR1", 'odd "name".AT2', RecordFile("ordner/größe.AT2", units="g", dt=0.01)),
         scaled=False,
         outputs=("peak_acceleration",),
         certify=False,
@@ -150,7 +150,18 @@ def test_an_axis_may_be_a_table() -> None:
         ),
         ("certify = 1", "certify: must be true or false"),
         ("records = 'FSR1'", "records: must be a list"),
-        ("records = ['FSR1', 2]", "records: must be a string at index 1"),
+        ("records = ['FSR1', 2]", "records: must be a name, a path or a table, got 2"),
+        (
+            "records = [{ path = 'a.txt', unit = 'g' }]",
+            "records: unknown key 'unit' of a record; known are path, units, dt, channel, name",
+        ),
+        ("records = [{ units = 'g' }]", "records: a record given as a table needs path, its file"),
+        (
+            "records = [{ path = 'a', dt = -1 }]",
+            "records: dt of a record must be positive seconds, got -1",
+        ),
+        ("records = [{ path = 1 }]", "records: path of a record must be a string, got 1"),
+        ("outputs = [3]", "outputs: must be a string at index 0"),
         ("records = []", "records: must name at least one, is empty"),
         ("records = ['a', 'b', 'a']", "records: names 'a' twice"),
         (
@@ -204,16 +215,19 @@ def test_a_missing_file_and_one_that_is_no_text(tmp_path: Path) -> None:
 
 def two_columns(path: Path, n: int = 200, dt: float = 0.01) -> Path:
     time = np.arange(n) * dt
-    np.savetxt(path, np.column_stack([time, 0.2 * np.sin(9 * time)]), fmt="%.10g")
+    np.savetxt(path, np.column_stack([time, 0.2 * np.sin(9 * time)]), fmt="%.4f %.10g")
     return path
 
 
 def test_records_are_names_or_files_beside_the_study(tmp_path: Path) -> None:
     two_columns(tmp_path / "mine.txt")
-    study = Study.parse("records = ['FSR1', 'mine.txt']", folder=tmp_path)
-    named, read = study.motions()
+    text = "records = ['fsr1', { path = 'mine.txt', units = 'cm/s2', name = 'mine 1' }]"
+    named, read = Study.parse(text, folder=tmp_path).motions()
     assert named.name == "FSR1"
-    assert read.n == 200
+    assert (read.name, read.n) == ("mine 1", 200)
+    assert read.pga == pytest.approx(0.2 / 100, rel=1e-3)
+    with pytest.raises(RecordError, match="does not say the unit"):
+        Study.parse("records = ['mine.txt']", folder=tmp_path).motions()
 
 
 def test_scaled_is_handed_to_the_catalogue() -> None:
