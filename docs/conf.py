@@ -1,4 +1,4 @@
-"""Settings of the documentation: MyST pages, notebooks kept as Python files, the interface from docstrings."""
+"""Settings of the documentation: MyST pages, notebooks kept as Python files, docstrings."""
 
 import fdspec
 

@@ -23,8 +23,9 @@ import fdspec
 # %% [markdown]
 # ## One history
 #
-# A frame of 20 t and 0.5 s with a brace four times as stiff as its columns, and a damper that slips at 50 kN. `FSR1` is
-# a record of the Kobe earthquake that stands in for the study's, scaled to its peak ground acceleration.
+# A frame of 20 t and 0.5 s with a brace four times as stiff as its columns, and a damper that slips at
+# 50 kN. `FSR1` is a record of the Kobe earthquake that stands in for the study's, scaled to its peak ground
+# acceleration.
 
 # %%
 motion = fdspec.load_record("FSR1")
@@ -60,8 +61,8 @@ print(f"energy error {history.energy_error.item():.1e} of the input")
 # %% [markdown]
 # ## The choice of the damper
 #
-# Peak acceleration over the pretension, for three braces. At the left the damper slides almost freely, at the right it
-# hardly ever does; in between lies the pretension one wants.
+# Peak acceleration over the pretension, for three braces. At the left the damper slides almost freely, at
+# the right it hardly ever does; in between lies the pretension one wants.
 
 # %%
 cube = fdspec.sweep(
