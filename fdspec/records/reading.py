@@ -74,6 +74,13 @@ def _channels(text: TextFile, unit: str | None, dt: float | None) -> tuple[str, 
             channels = known.read(text)
             _agree(text, channels, unit, dt)
             return known.name, channels
+    if text.name.lower().endswith(".at2"):
+        # Some sites give their own layouts PEER's ending; what the header means there is anybody's guess.
+        expected = "expected 'ACCELERATION TIME HISTORY IN UNITS OF G'"
+        third = text.line(3, expected).strip()[:60]
+        raise text.refusal(
+            3, f"the ending says PEER AT2, but the content does not: {expected}, found {third!r}"
+        )
     if columns.recognises(text):
         return columns.NAME, columns.read(text, units=unit, dt=dt)
     names = ", ".join(known.name for known in FORMATS)

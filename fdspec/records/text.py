@@ -41,13 +41,17 @@ def read(text: TextFile, *, units: str | None = None, dt: float | None = None) -
             raise text.refusal(None, "one column has no times: give dt, in s")
         step = dt
     else:
-        step = uniform_step(text, first, words)
-        if dt is not None and abs(dt - step) > 1e-6 * step:
-            raise text.refusal(None, f"dt is given as {dt!r} s, but the first column steps by {step!r} s")
+        step = uniform_step(text, first, words, dt)
         table = table[:, 1:]
     names = _names(text, first, table.shape[1])
     return tuple(
-        Channel(name, to_si(np.ascontiguousarray(column), unit), step, unit, component=name)
+        Channel(
+            name,
+            to_si(np.ascontiguousarray(column), unit),
+            step,
+            unit,
+            component=name if len(names) > 1 else "",
+        )
         for name, column in zip(names, table.T, strict=True)
     )
 
