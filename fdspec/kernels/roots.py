@@ -5,7 +5,7 @@ p(x) = sum c[k] x^k of the fraction x of the step.  Signs at the two ends say li
 sliding velocity of a light brace returns close to zero once in every brace period and often
 touches it between two ends.  So every interval is cleared by a bound or taken apart:
 
-- on [x, x + w] the cubic through values and slopes at both ends errs by at most
+- the cubic through values and slopes at both ends errs by at most
   max|p''''| w^4 / 384, and lies within its four Bezier ordinates;
 - where the curvature provably keeps one sign, the extremum in between is found by Newton's method
   and its sign is looked at;
@@ -56,6 +56,16 @@ def curvature(c, lo, n, x):
     for k in range(n - lo, 1, -1):
         result = result * x + k * (k - 1) * c[k + lo]
     return result
+
+
+@inner
+def clears(start, start_rise, end, end_rise, fourth):
+    """Whether a quantity surely stays positive on a step.
+
+    Values at both ends, slopes times the step, and a bound on the fourth derivative times step^4.
+    """
+    inside = min(start + start_rise / 3.0, end - end_rise / 3.0)
+    return start > 0.0 and end > 0.0 and inside >= fourth / 288.0
 
 
 @inner
@@ -141,8 +151,8 @@ def first_root(c, lo, n, sign):
         height_y, slope_y = value_slope(c, lo, n, y)
         height_y *= sign
         slope_y *= sign
-        lowest = min(min(height, height_y), min(height + w * slope / 3.0, height_y - w * slope_y / 3.0))
-        if lowest <= fourth * w**4 / 384.0:
+        inside = min(height + w * slope / 3.0, height_y - w * slope_y / 3.0)
+        if height_y <= 0.0 or inside < fourth * w**4 / 288.0:
             bend = sign * curvature(c, lo, n, x)
             bend_y = sign * curvature(c, lo, n, y)
             margin = fourth * w * w / 8.0
@@ -190,8 +200,9 @@ def largest(c, n, sign, best):
         height_y, slope_y = value_slope(c, 0, n, y)
         height_y *= sign
         slope_y *= sign
-        highest = max(max(height, height_y), max(height + w * slope / 3.0, height_y - w * slope_y / 3.0))
-        if highest + fourth * w**4 / 384.0 > best:
+        best = max(best, height_y)
+        inside = max(height + w * slope / 3.0, height_y - w * slope_y / 3.0)
+        if inside + fourth * w**4 / 288.0 > best:
             bend = sign * curvature(c, 0, n, x)
             bend_y = sign * curvature(c, 0, n, y)
             margin = fourth * w * w / 8.0
@@ -199,10 +210,7 @@ def largest(c, n, sign, best):
                 if slope > 0.0 > slope_y:
                     top = locate_turn(c, 0, n, -sign, x, y)
                     best = max(best, sign * value_slope(c, 0, n, top)[0])
-                best = max(best, height_y)
-            elif min(bend, bend_y) - margin > 0.0 or w <= SMALLEST_INTERVAL:
-                best = max(best, height_y)
-            else:
+            elif min(bend, bend_y) - margin <= 0.0 and w > SMALLEST_INTERVAL:
                 w *= 0.5
                 continue
         x = y

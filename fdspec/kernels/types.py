@@ -32,3 +32,44 @@ class Storey(NamedTuple):
     brace_stiffness: float
     slip_force: float
     kinetic_slip_force: float
+
+
+class Motion(NamedTuple):
+    """Floor and brace at one instant, relative to the ground: m, m/s."""
+
+    u: float
+    v: float
+    d: float
+    e: float
+
+
+class Peaks(NamedTuple):
+    """Largest magnitudes so far: absolute floor acceleration, displacement, velocity, base shear."""
+
+    acceleration: float
+    displacement: float
+    velocity: float
+    shear: float
+
+
+class Force(NamedTuple):
+    """Force over mass at a piece's start and its rate: floor (or floor and brace as one), and brace."""
+
+    p0: float
+    p1: float
+    b0: float
+    b1: float
+
+
+class Energy(NamedTuple):
+    """Work so far, J: of the ground, of the viscous dampers, of a massless brace's sudden release."""
+
+    input: float
+    viscous: float
+    release: float
+
+
+FLOOR: Final = 0
+BRACE: Final = 1
+SEARCH: Final = 2
+"""Rows of the work array: series of the floor, of the brace, and of the quantity searched."""

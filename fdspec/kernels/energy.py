@@ -1,0 +1,77 @@
+"""Energy of a single-storey history: each term by its own formula, none as what the others leave."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from fdspec.jit import inner
+from fdspec.kernels.oscillator import StepLoss
+from fdspec.kernels.quadrature import no_loss, series_area, series_square, step_loss
+from fdspec.kernels.roots import value_slope
+from fdspec.kernels.types import BRACE, FLOOR, STICK
+
+
+class Losses(NamedTuple):
+    """Quadratic forms of the viscous work over the plan's whole pieces."""
+
+    stick: StepLoss
+    floor: StepLoss
+    brace: StepLoss
+    stride: StepLoss
+
+
+@inner
+def losses(plan, certify, dt):
+    """Work out the viscous forms, or nothing where they are not asked for."""
+    if not certify:
+        return Losses(no_loss(), no_loss(), no_loss(), no_loss())
+    return Losses(
+        step_loss(plan.stick.g, plan.stick.w2, plan.stick_step),
+        step_loss(plan.floor.g, plan.floor.w2, plan.slip_step),
+        step_loss(plan.brace.g, plan.brace.w2, plan.slip_step),
+        step_loss(plan.floor.g, plan.floor.w2, dt),
+    )
+
+
+@inner
+def input_work(plan, phase, start, end, floor_area, brace_area, acceleration, rate, h):
+    """Work of the ground on a piece: minus the integral of (m_f u' + m_d d') a_g, by parts."""
+    floor = acceleration * (end.u - start.u) + rate * (h * end.u - floor_area)
+    if phase == STICK:
+        return -plan.mass * floor
+    brace = acceleration * (end.d - start.d) + rate * (h * end.d - brace_area)
+    return -plan.storey.floor_mass * floor - plan.storey.brace_mass * brace
+
+
+@inner
+def series_work(plan, phase, work, n, acceleration, rate, h, x, viscous):
+    """Input and viscous work over the first part x of an expanded piece."""
+    storey = plan.storey
+    floor = work[FLOOR]
+    start = floor[0]
+    end, _ = value_slope(floor, 0, n, x)
+    part = x * h
+    moved = acceleration * (end - start) + rate * (part * end - series_area(floor, n, h, x))
+    if phase == STICK:
+        damping = storey.floor_damping + storey.brace_damping
+        return -plan.mass * moved, damping * series_square(floor, n, h, x) if viscous else 0.0
+    brace = work[BRACE]
+    end, _ = value_slope(brace, 0, n, x)
+    swung = acceleration * (end - brace[0]) + rate * (part * end - series_area(brace, n, h, x))
+    lost = 0.0
+    if viscous:
+        lost = storey.floor_damping * series_square(floor, n, h, x)
+        if storey.brace_damping > 0.0:
+            lost += storey.brace_damping * series_square(brace, n, h, x)
+    return -storey.floor_mass * moved - storey.brace_mass * swung, lost
+
+
+@inner
+def stored_energy(storey, motion):
+    """Kinetic and strain energy, J."""
+    return 0.5 * (
+        storey.floor_mass * motion.v * motion.v
+        + storey.brace_mass * motion.e * motion.e
+        + storey.floor_stiffness * motion.u * motion.u
+        + storey.brace_stiffness * motion.d * motion.d
+    )

@@ -1,0 +1,178 @@
+"""One linear oscillator x'' + g x' + w2 x = p0 + p1 t: closed form over a step, series within it.
+
+g is damping over mass (2 zeta omega, 1/s), w2 stiffness over mass (omega^2, 1/s2), p0 and p1 force
+over mass at the step's start and its rate.  The closed form carries whole steps; the Taylor series
+about the step's start, complete to rounding, is what roots and extrema are searched in.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from fdspec.jit import inner
+
+SERIES_RADIANS = 1.0
+"""Below this phase the closed form loses digits to cancellation, and the series is short."""
+
+TERMS = 30
+"""Length of coefficient arrays: order 28 is rounding at 2 radians, the largest step searched."""
+
+
+class StepMap(NamedTuple):
+    """Displacement x, velocity v and the integral of x at a step's end, linear in x, v, p0, p1 at its start."""
+
+    xx: float
+    xv: float
+    x0: float
+    x1: float
+    vx: float
+    vv: float
+    v0: float
+    v1: float
+    ix: float
+    iv: float
+    i0: float
+    i1: float
+
+
+class StepLoss(NamedTuple):
+    """Integral of v^2 over a step: the upper triangle of a quadratic form in x, v, p0, p1 at its start."""
+
+    xx: float
+    xv: float
+    x0: float
+    x1: float
+    vv: float
+    v0: float
+    v1: float
+    p00: float
+    p01: float
+    p11: float
+
+
+@inner
+def rate_bound(g, w2):
+    """Bound r (1/s) on growth of derivatives: |d^k z/dt^k| <= r^k (|z| + |z'|/omega) in free motion.
+
+    The norm of the map (z, z'/omega) -> (z', z''/omega), with zeta = g / (2 omega).
+    """
+    return 0.5 * g + math.sqrt(0.25 * g * g + w2)
+
+
+@inner
+def series_order(theta):
+    """Order at which a Taylor series over the phase theta (rad) is complete to rounding."""
+    term = 1.0
+    order = 3
+    for k in range(1, TERMS - 1):
+        term *= theta / k
+        order = k
+        if term < 1e-19 and k >= 5:
+            break
+    return order
+
+
+@inner
+def expand(c, n, x, v, g, w2, p0, p1, h):
+    """Fill c[0..n]: x(s h) = sum c[k] s^k for s in [0, 1]."""
+    gh = g * h
+    wh = w2 * h * h
+    c[0] = x
+    c[1] = v * h
+    c[2] = 0.5 * (p0 * h * h - gh * c[1] - wh * x)
+    c[3] = (p1 * h * h * h - gh * 2.0 * c[2] - wh * c[1]) / 6.0
+    for k in range(4, n + 1):
+        c[k] = -(gh * (k - 1) * c[k - 1] + wh * c[k - 2]) / (k * (k - 1))
+
+
+@inner
+def series_column(x, v, g, w2, p0, p1, h):
+    """Displacement, velocity and integral of displacement after h, by the series."""
+    gh = g * h
+    wh = w2 * h * h
+    older = x
+    old = v * h
+    end = older + old
+    slope = old
+    area = older + 0.5 * old
+    for k in range(2, TERMS):
+        drive = 0.0
+        if k == 2:
+            drive = p0 * h * h
+        elif k == 3:
+            drive = p1 * h * h * h
+        term = (drive - gh * (k - 1) * old - wh * older) / (k * (k - 1))
+        end += term
+        slope += k * term
+        area += term / (k + 1)
+        older = old
+        old = term
+    return end, slope / h, area * h
+
+
+@inner
+def step_map(g, w2, h):
+    """The map of one step of length h, by the series for short steps, in closed form for long ones."""
+    if rate_bound(g, w2) * h <= SERIES_RADIANS:
+        xx, vx, ix = series_column(1.0, 0.0, g, w2, 0.0, 0.0, h)
+        xv, vv, iv = series_column(0.0, 1.0, g, w2, 0.0, 0.0, h)
+        x0, v0, i0 = series_column(0.0, 0.0, g, w2, 1.0, 0.0, h)
+        x1, v1, i1 = series_column(0.0, 0.0, g, w2, 0.0, 1.0, h)
+        return StepMap(xx, xv, x0, x1, vx, vv, v0, v1, ix, iv, i0, i1)
+    a = 0.5 * g
+    square = w2 - a * a
+    if square > 0.0:
+        wd = math.sqrt(square)
+        decay = math.exp(-a * h)
+        sine = decay * math.sin(wd * h) / wd
+        cosine = decay * math.cos(wd * h)
+    elif square < 0.0:
+        b = math.sqrt(-square)
+        slow = math.exp(-w2 / (a + b) * h)
+        fast = math.exp(-(a + b) * h)
+        sine = 0.5 * (slow - fast) / b
+        cosine = 0.5 * (slow + fast)
+    else:
+        decay = math.exp(-a * h)
+        sine = decay * h
+        cosine = decay
+    xx = cosine + a * sine
+    i_x = sine
+    if w2 > 0.0:
+        x0 = (1.0 - xx) / w2
+        i_x = sine + g * x0
+        x1 = (h - i_x) / w2
+        i1 = (0.5 * h * h - x0 - g * x1) / w2
+    else:  # no spring: x'' + g x' = p0 + p1 t
+        x0 = (h - sine) / g
+        i_x = h
+        x1 = (0.5 * h * h - x0) / g
+        i1 = (h * h * h / 6.0 - x1) / g
+    return StepMap(xx, sine, x0, x1, -w2 * sine, cosine - a * sine, sine, x0, i_x, x0, x1, i1)
+
+
+@inner
+def advance(step, x, v, p0, p1):
+    """Displacement and velocity at the end of a step."""
+    return (
+        step.xx * x + step.xv * v + step.x0 * p0 + step.x1 * p1,
+        step.vx * x + step.vv * v + step.v0 * p0 + step.v1 * p1,
+    )
+
+
+@inner
+def area(step, x, v, p0, p1):
+    """Integral of displacement over a step."""
+    return step.ix * x + step.iv * v + step.i0 * p0 + step.i1 * p1
+
+
+@inner
+def square_integral(loss, x, v, p0, p1):
+    """Integral of velocity squared over a step."""
+    return (
+        x * (loss.xx * x + 2.0 * (loss.xv * v + loss.x0 * p0 + loss.x1 * p1))
+        + v * (loss.vv * v + 2.0 * (loss.v0 * p0 + loss.v1 * p1))
+        + p0 * (loss.p00 * p0 + 2.0 * loss.p01 * p1)
+        + loss.p11 * p1 * p1
+    )
