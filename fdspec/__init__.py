@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
-    from fdspec.building import Building, DampingMatrix, ModalDamping, RayleighDamping
+    from fdspec.building import Building
+    from fdspec.damping import DampingMatrix, ModalDamping, RayleighDamping
     from fdspec.motion import GroundMotion
     from fdspec.records import load_record, read_record
     from fdspec.simulate import simulate
@@ -37,10 +38,10 @@ __all__ = [
 
 _HOME = {
     "Building": "building",
-    "DampingMatrix": "building",
+    "DampingMatrix": "damping",
     "GroundMotion": "motion",
-    "ModalDamping": "building",
-    "RayleighDamping": "building",
+    "ModalDamping": "damping",
+    "RayleighDamping": "damping",
     "Study": "study",
     "export": "store",
     "load_record": "records",
