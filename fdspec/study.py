@@ -147,7 +147,7 @@ class Study:
 # A field left out has the value of the study on the nine records.
 
 # Names of the catalogue (fdspec records list) or record files, relative to this file; what a file does not
-# say of itself goes into a table: {{ path = "a.txt", units = "g", dt = 0.01, channel = "EW", name = "mine" }}.
+# say of itself goes into a table: {{ path = "a.txt", units = "g", dt = 0.01, channel = "EW", name = "b" }}.
 records = {_records_text(self.records)}
 # Scale the stand-ins of the catalogue to the study's peak ground acceleration.
 scaled = {_bool(self.scaled)}

@@ -1,0 +1,5 @@
+"""The command line, `fdspec`. No science here; every command loads what it needs when it runs."""
+
+from fdspec.cli.main import main
+
+__all__ = ["main"]

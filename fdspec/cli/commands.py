@@ -1,0 +1,28 @@
+"""The group `fdspec` and the table of its commands."""
+
+import click
+
+from fdspec import __version__
+from fdspec.cli.lazy import LazyGroup
+
+COMMANDS = {
+    "sweep": ("fdspec.cli.sweep:sweep", "Compute the cube of a study; without a file, the study of the nine records."),
+    "simulate": ("fdspec.cli.simulate:simulate", "Compute the history of one frame under one record."),
+    "records": ("fdspec.cli.records:records", "List and show the records of the catalogue."),
+    "figures": ("fdspec.cli.figures:figures", "Draw the acceleration over pretension and period."),
+    "export": ("fdspec.cli.export:export", "Write one record of a cube for other programs (netCDF, CSV)."),
+}
+
+
+@click.group(
+    cls=LazyGroup,
+    lazy=COMMANDS,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+)
+@click.version_option(__version__, message="fdspec %(version)s")
+def fdspec() -> None:
+    """Compute the seismic response of buildings with friction dampers, exactly.
+
+    Units are SI. Results go to stdout, progress, warnings and errors to stderr. Exit codes: 0 done, 1 failed,
+    2 wrong usage or input, 130 interrupted.
+    """

@@ -1,0 +1,68 @@
+"""The entry point: runs a command and turns what goes wrong into one line and an exit code."""
+
+from __future__ import annotations
+
+import os
+import sys
+import warnings
+from collections.abc import Sequence
+from typing import Final
+
+import click
+
+from fdspec.cli.commands import fdspec
+from fdspec.errors import FdspecError, InvalidInput, StoreError
+
+DONE: Final = 0
+FAILED: Final = 1
+WRONG_USAGE: Final = 2
+INTERRUPTED: Final = 130
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; return its exit code.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        Without the program's name; those of the process by default.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("default", UserWarning)
+        warnings.showwarning = _show_warning
+        try:
+            code = fdspec.main(arguments, prog_name="fdspec", standalone_mode=False)
+            sys.stdout.flush()
+        except click.exceptions.NoArgsIsHelpError as error:
+            error.show()
+            return WRONG_USAGE
+        except click.UsageError as error:
+            path = error.ctx.command_path if error.ctx else "fdspec"
+            return _fail(f"{error.format_message()} (fdspec: see '{path} --help')", WRONG_USAGE)
+        except click.ClickException as error:
+            return _fail(error.format_message(), WRONG_USAGE)
+        except (InvalidInput, StoreError) as error:
+            return _fail(str(error), WRONG_USAGE)
+        except FdspecError as error:
+            return _fail(str(error), FAILED)
+        except MemoryError as error:
+            return _fail(f"not enough memory: {error}", FAILED)
+        except (click.Abort, KeyboardInterrupt):
+            click.echo("fdspec: interrupted", err=True)
+            return INTERRUPTED
+        except BrokenPipeError:
+            # The reader has gone, as `head` does. What is still in the buffer must not fail again at exit.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            return FAILED
+    return code if isinstance(code, int) else DONE
+
+
+def _fail(text: str, code: int) -> int:
+    for line in text.splitlines():
+        click.echo(f"fdspec: error: {line}", err=True)
+    return code
+
+
+def _show_warning(message: Warning | str, *_: object, **__: object) -> None:
+    text = " ".join(str(message).split())
+    click.echo(f"fdspec: warning: {text}", err=True)

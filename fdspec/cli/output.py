@@ -1,0 +1,48 @@
+"""Where results go: checked before the work starts, and never over a file that the user did not give up."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
+
+import click
+
+from fdspec.errors import StoreError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+PICTURES = (".png", ".pdf", ".svg")
+
+
+def force_option(command: Callable[P, R]) -> Callable[P, R]:
+    """Add the option without which a file that exists is not replaced."""
+    return click.option("--force", is_flag=True, help="Replace output files that exist.")(command)
+
+
+def free(path: str | Path, *, force: bool, suffixes: tuple[str, ...] | None = None) -> Path:
+    """Return the path when a file can be written there, or raise StoreError."""
+    from fdspec.store import check_writable
+
+    path = Path(path)
+    if path.is_file() and not force:
+        raise StoreError(f"{path} exists already; name another with -o, or replace it with --force")
+    if suffixes is None:
+        check_writable(path)
+    else:
+        check_writable(path, suffixes=suffixes)
+    return path
+
+
+def save_picture(figure: Figure, path: Path) -> None:
+    """Write a figure as a whole or not at all; two runs give the same bytes."""
+    from fdspec.store.replacing import replacing
+
+    kind = path.suffix.lower().removeprefix(".")
+    undated: dict[str, Any] = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}[kind]
+    with replacing(path, suffixes=PICTURES) as part:
+        figure.savefig(part, format=kind, metadata=undated)
