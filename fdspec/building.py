@@ -212,8 +212,8 @@ class Building:
         together = _stiffness_for(_positive("braced_period", braced_period, "s"), floors + braces)
         if together <= stiffness:
             raise InvalidInput(
-                f"braced_period must be short enough for a brace of positive stiffness, but {braced_period!r} s"
-                f" beside a bare period of {bare_period!r} s is not"
+                "braced_period must be short enough for a brace of positive stiffness, but "
+                f"{braced_period!r} s beside a bare period of {bare_period!r} s is not"
             )
         return cls(
             floors,

@@ -84,11 +84,12 @@ class ModalDamping:
 
     ratio: float | tuple[float, ...] = 0.05
 
-    def __init__(self, ratio: float | Sequence[float] = 0.05) -> None:
+    def __init__(self, ratio: float | Sequence[float] | Array = 0.05) -> None:
         checked: float | tuple[float, ...]
-        if isinstance(ratio, (Sequence, np.ndarray)) and not isinstance(ratio, str):
+        if np.ndim(ratio) == 1:
             checked = tuple(
-                _ratio(f"ratio of mode {mode}", value) for mode, value in enumerate(ratio, start=1)
+                _ratio(f"ratio of mode {mode}", value)
+                for mode, value in enumerate(np.asarray(ratio), start=1)
             )
         else:
             checked = _ratio("ratio", ratio)
