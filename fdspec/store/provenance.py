@@ -17,6 +17,9 @@ from fdspec.errors import InvalidInput
 STUDY: Final = "Numerical methodology for dynamic analysis of buildings with friction dampers"
 """Title of the study that fdspec follows."""
 
+STAND_IN: Final = "stand-in for "
+"""How the source of a ground motion begins when the motion stands in for a record that cannot be shipped."""
+
 
 class Motion(Protocol):
     """What provenance tells of a ground motion."""
@@ -61,7 +64,7 @@ def provenance(
     command : str
         What was called, for the line of history: ``fdspec.sweep``.
     comment : str
-        What a reader must know, such as that records are stand-ins; left out when empty.
+        What else a reader must know. That records are stand-ins is told in any case.
     now : datetime, optional
         Time of creation with its zone. Otherwise SOURCE_DATE_EPOCH where it is set, for files that repeat
         to the byte, else the clock.
@@ -77,6 +80,7 @@ def provenance(
     InvalidInput
         For a parameter that JSON cannot hold, or a SOURCE_DATE_EPOCH that is no whole number of seconds.
     """
+    applied = tuple(motions)
     records = [
         {
             "name": motion.name,
@@ -84,20 +88,31 @@ def provenance(
             "source": motion.source,
             "history": list(motion.history),
         }
-        for motion in motions
+        for motion in applied
     ]
     content = {**{name: _plain(name, value) for name, value in parameters.items()}, "records": records}
+    comments = (_stand_ins(applied), comment)
     attributes = {
         "Conventions": "CF-1.11",
         "title": title,
         "source": f"fdspec {__version__}, exact piecewise integration of stick-slip motion",
         "history": f"{_created(now)} {command} (fdspec {__version__})",
         "references": STUDY,
-        "comment": comment,
+        "comment": " ".join(text for text in comments if text),
         "fdspec_version": __version__,
         "parameters": json.dumps(content, allow_nan=False),
     }
     return {name: text for name, text in attributes.items() if text}
+
+
+def _stand_ins(motions: Iterable[Motion]) -> str:
+    names = [motion.name for motion in motions if motion.source.startswith(STAND_IN)]
+    if not names:
+        return ""
+    return (
+        f"Stand-ins: {', '.join(names)}. Each is another real record of the same earthquake; "
+        "the study's own files cannot be shipped."
+    )
 
 
 def _created(now: datetime | None) -> str:
