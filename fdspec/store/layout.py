@@ -21,13 +21,13 @@ from fdspec.errors import StoreError
 if TYPE_CHECKING:
     import xarray as xr
 
-LABELS: Final = "labels"
+LABELS: Final = "fdspec_labels"
 """Attribute of an integer index on disk: the name of the variable that holds the index's text."""
 
-DTYPE: Final = "numpy_dtype"
+DTYPE: Final = "fdspec_dtype"
 """Attribute of text on disk whose type in memory is not the narrowest fixed width."""
 
-DIM: Final = "index_of"
+DIM: Final = "fdspec_dim"
 """Attribute of a variable on disk whose dim has another name there: the dim that it indexes in memory."""
 
 _ON_DISK: Final = {"time": "sample"}
@@ -74,12 +74,11 @@ def from_disk(dataset: xr.Dataset) -> xr.Dataset:
         name = str(key)
         if name in labels:
             continue
-        stored = variable.to_base_variable()
-        if LABELS in stored.attrs:
-            stored = dataset.variables[stored.attrs[LABELS]].to_base_variable()
-        if DIM in stored.attrs:
-            renamed[str(stored.dims[0])] = str(stored.attrs[DIM])
-            stored = _with_attrs(stored, {key: value for key, value in stored.attrs.items() if key != DIM})
+        if DIM in variable.attrs:
+            renamed[str(variable.dims[0])] = str(variable.attrs[DIM])
+        of_text = LABELS in variable.attrs
+        stored = (dataset.variables[variable.attrs[LABELS]] if of_text else variable).to_base_variable()
+        stored = _with_attrs(stored, {key: value for key, value in stored.attrs.items() if key != DIM})
         variables[name] = _restored(stored) if is_text(stored) else stored
     return _assemble(variables, coords, dataset.attrs, renamed)
 

@@ -146,6 +146,8 @@ def _check(dataset: xr.Dataset) -> None:
 
 def _check_attributes(owner: str, attributes: dict[Any, Any]) -> None:
     for name, value in attributes.items():
+        if name in {FORMAT, layout.LABELS, layout.DTYPE, layout.DIM}:
+            raise StoreError(f"a file needs the attribute {name!r} for itself; rename the one of {owner}")
         if not isinstance(value, str) and (
             np.asarray(value).dtype.kind not in "iuf" or np.ndim(value) > 1 or np.size(value) == 0
         ):

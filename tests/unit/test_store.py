@@ -129,6 +129,12 @@ def test_attributes_that_a_file_cannot_hold(tmp_path, value):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("name", ["fdspec_format", "fdspec_labels", "fdspec_dim", "fdspec_dtype"])
+def test_attributes_that_a_file_needs(tmp_path, name):
+    with pytest.raises(StoreError, match=f"a file needs the attribute '{name}' for itself"):
+        store.save(synthetic_cube().assign_attrs({name: 1}), tmp_path / "cube.nc")
+
+
 @pytest.mark.parametrize(
     ("values", "text"),
     [
