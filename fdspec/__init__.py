@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from fdspec.motion import GroundMotion
     from fdspec.records import load_record, read_record
     from fdspec.simulate import simulate
-    from fdspec.store import export, open, save  # noqa: A004
+    from fdspec.store.export import export
+    from fdspec.store.netcdf import open, save  # noqa: A004
     from fdspec.study import Study
     from fdspec.sweep import sweep
 
