@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
-from fdspec.records import at2
+from fdspec.records import at2, cosmos, csmip, csmip_v1, cwb, esm, geonet, knet, smc
 from fdspec.records.channel import Channel
 from fdspec.records.textfile import TextFile
 
@@ -20,4 +20,7 @@ class Format:
     read: Callable[[TextFile], tuple[Channel, ...]]
 
 
-FORMATS: Final = tuple(Format(module.NAME, module.recognises, module.read) for module in (at2,))
+FORMATS: Final = tuple(
+    Format(module.NAME, module.recognises, module.read)
+    for module in (at2, cosmos, csmip, csmip_v1, smc, esm, knet, geonet, cwb)
+)

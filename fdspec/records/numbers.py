@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from fdspec.records.textfile import TextFile
 
-_UNSIGNED: Final = r"(?:\d+\.?\d*|\.\d+)(?:[EeDd][+-]?\d+)?"
+_UNSIGNED: Final = r"(?:\d+\.?\d*|\.\d+)(?:[EeDd][+-]?\d{1,4})?"
 _NUMBER: Final = re.compile(rf"[+-]?{_UNSIGNED}", re.ASCII)
 # Values that fill their columns touch: 1.234-5.678. Only a sign can part them, and only numbers with a
 # decimal point are taken apart, because 1.234-105 may also be Fortran's way to write 1.234E-105.
-_STUCK: Final = re.compile(r"[+-]?(?:\d+\.\d*|\.\d+)(?:[EeDd][+-]?\d+)?", re.ASCII)
+_STUCK: Final = re.compile(r"[+-]?(?:\d+\.\d*|\.\d+)(?:[EeDd][+-]?\d{1,4})?", re.ASCII)
 _ONLY_NUMBERS: Final = re.compile(r"[0-9+\-.Ee \t\n]*", re.ASCII)
 
 

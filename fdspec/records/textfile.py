@@ -11,6 +11,8 @@ from fdspec.errors import RecordError
 
 MAX_BYTES: Final = 200_000_000
 """An hour of three channels at 200 Hz is 40 MB of text; far beyond that it is no record."""
+MAX_LINE: Final = 10_000
+"""Characters; no format has such lines, and the time of a search in one stays bounded."""
 
 
 @dataclass(frozen=True)
@@ -58,13 +60,17 @@ def decode(content: bytes, name: str) -> TextFile:
     if b"\0" in content:
         raise RecordError(f"{name}: this is a binary file; expected text")
     try:
-        text = content.decode("utf-8-sig")
+        characters = content.decode("utf-8-sig")
     except UnicodeDecodeError:
-        text = content.decode("latin-1")
+        characters = content.decode("latin-1")
     # str.splitlines would also split at form feeds and the like, and line numbers would be off.
-    lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    lines = characters.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     while lines and not lines[-1].strip("\x1a \t\f"):  # DOS files may end in Ctrl-Z
         lines.pop()
     if not lines:
         raise RecordError(f"{name}: the file has no text")
-    return TextFile(name, tuple(lines))
+    text = TextFile(name, tuple(lines))
+    for number, line in enumerate(lines, start=1):
+        if len(line) > MAX_LINE:
+            raise text.refusal(number, f"expected lines of at most {MAX_LINE} characters, found {len(line)}")
+    return text

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from decimal import Decimal
 from itertools import pairwise
 from typing import Final
@@ -41,7 +40,7 @@ def uniform_step(text: TextFile, first: int, words: list[str], given: float | No
     coarse = given is None and step < 2.0 * STEP_IN_UNITS * float(slack.max())
     if coarse or (off > allowed).any():
         raise _unequal(text, first, times, given)
-    return _shortest(step, float(slack[0] + slack[-1]) / count) if given is None else given
+    return _shortest(step, times, slack) if given is None else given
 
 
 def _refuse_backward_steps(text: TextFile, first: int, words: list[str], times: NDArray[np.float64]) -> None:
@@ -73,10 +72,11 @@ def _half_units(decimals: list[Decimal], times: NDArray[np.float64]) -> NDArray[
     return np.asarray(0.5 * np.maximum(finest, 10.0 ** (magnitude + 1 - most_digits)))
 
 
-def _shortest(value: float, allowed: float) -> float:
-    """Return the shortest decimal within `allowed` of `value`."""
+def _shortest(step: float, times: NDArray[np.float64], slack: NDArray[np.float64]) -> float:
+    """Return the shortest decimal near `step` that explains all times, each within its slack."""
     for digits in range(1, 17):
-        candidate = float(f"{value:.{digits}g}")
-        if math.isclose(candidate, value, rel_tol=0.0, abs_tol=allowed):
+        candidate = float(f"{step:.{digits}g}")
+        off = np.abs(times - (times[0] + np.arange(times.size) * candidate))
+        if (off <= slack + slack[0]).all():
             return candidate
-    return value
+    return step

@@ -55,8 +55,8 @@ def test_two_columns_with_times_rounded_or_not(samples, dt, decimals):
         assert shown != {True}
         return
     assert channel.acceleration.tolist() == samples
-    # Rounded times leave the step open by a unit of their last digit over the whole length.
-    assert abs(channel.dt - dt) <= 10.0**-decimals / (len(rows) - 1) + 1e-15
+    # Both steps explain the last time from the first, each rounded by half a unit of its last digit.
+    assert abs(channel.dt - dt) <= 2.0 * 10.0**-decimals / (len(rows) - 1) + 1e-15
 
 
 @given(st.text(alphabet="0123456789+-.EeDd ", max_size=40))

@@ -1,0 +1,103 @@
+"""CSMIP (CDMG) V2: text, integers, reals, then acceleration, velocity and displacement, a channel a block."""
+
+from __future__ import annotations
+
+import re
+from typing import Final
+
+from fdspec.records.channel import Channel
+from fdspec.records.numbers import parse_columns
+from fdspec.records.textfile import TextFile
+from fdspec.records.units import UNITS, to_si
+
+NAME: Final = "CSMIP V2"
+HEADER_LINES: Final = 45
+REAL_LINES: Final = 13
+REALS: Final = 100
+STEP: Final = (
+    52  # real header value 53: step of the corrected series, s, with more digits than the text shows
+)
+
+_TITLE: Final = re.compile(r"Corrected accelerogram\s+\S+\s+Chan\s*\w+:", re.IGNORECASE)
+_DATA: Final = re.compile(
+    r"\s*(\d{1,9}) points of (accel|veloc|displ) data equally spaced at\s+([\d.]+) sec, in ([^\s(]+?)\.?\s*"
+    r"\(\s*(\d{1,2})f(\d{1,2})\.\d+\)",
+    re.IGNORECASE,
+)
+
+
+def recognises(text: TextFile) -> bool:
+    """Say whether the first line is a CSMIP title of corrected data."""
+    return _TITLE.match(text.lines[0]) is not None
+
+
+def read(text: TextFile) -> tuple[Channel, ...]:
+    """Read the acceleration of each channel."""
+    channels = []
+    number = 1
+    while number <= len(text.lines):
+        if _TITLE.match(text.lines[number - 1]) is None:
+            raise text.refusal(
+                number, f"expected 'Corrected accelerogram', found {text.lines[number - 1][:60]!r}"
+            )
+        channel, number = _read_block(text, number)
+        channels.append(channel)
+    return tuple(channels)
+
+
+def _read_block(text: TextFile, first: int) -> tuple[Channel, int]:
+    line = first + HEADER_LINES
+    channel = None
+    for quantity in ("accel", "veloc", "displ"):
+        data = _DATA.match(text.line(line, f"the points of {quantity}"))
+        if data is None or data[2].lower() != quantity:
+            raise text.refusal(line, f"expected 'n points of {quantity} data equally spaced at t sec'")
+        count, a_line, width = int(data[1]), int(data[5]), int(data[6])
+        if count < 2 or a_line < 1 or width < 2:
+            raise text.refusal(
+                line, f"expected at least 2 points and a Fortran format, found {data[0].strip()!r}"
+            )
+        last = line + -(-count // a_line)
+        values = parse_columns(text, line + 1, last, width, count)
+        if quantity == "accel":
+            unit = UNITS.get(data[4].lower())
+            if unit is None:
+                raise text.refusal(line, f"expected acceleration in cm/sec2 or g, found {data[4]!r}")
+            channel = _channel(
+                text, first, Channel("", to_si(values, unit), _step(text, line, data[3]), unit)
+            )
+        line = last + 1
+    assert channel is not None  # noqa: S101  the loop's first turn makes it
+    end = text.line(line, "the end of data")
+    if "end of data" not in end.lower():
+        raise text.refusal(line, f"expected the end of data, found {end.strip()[:60]!r}")
+    return channel, line + 1
+
+
+def _step(text: TextFile, line: int, printed: str) -> float:
+    reals = parse_columns(text, line - REAL_LINES, line - 1, 10, REALS)
+    exact = float(reals[STEP])
+    try:
+        shown = float(printed)
+    except ValueError:
+        shown = 0.0
+    if exact <= 0.0 or abs(exact - shown) > 0.00051:
+        raise text.refusal(
+            line, f"expected the step of real-header value {STEP + 1}, {exact:g} s, found {printed}"
+        )
+    return exact
+
+
+def _channel(text: TextFile, first: int, channel: Channel) -> Channel:
+    lines = [line.strip() for line in text.lines[first - 1 : first + 24]]
+    direction = re.sub(r"^Chan\s*\w+:\s*", "", lines[7])
+    return Channel(
+        name=direction,
+        acceleration=channel.acceleration,
+        dt=channel.dt,
+        units=channel.units,
+        event=" ".join(re.sub(r"^(Rcrd|Record) of\s+", "", lines[2].split("(")[0]).split()),
+        station=re.split(r"\s{3,}", lines[6])[0],
+        component=direction,
+        processing=(lines[14],) if "filter" in lines[14].lower() else (),
+    )

@@ -1,0 +1,71 @@
+"""K-NET and KiK-net ASCII: 17 lines of header, then counts, eight a line."""
+
+from __future__ import annotations
+
+import re
+from types import MappingProxyType
+from typing import Final
+
+from fdspec.records.channel import Channel
+from fdspec.records.keyed import whole_number
+from fdspec.records.numbers import parse_block, parse_number
+from fdspec.records.textfile import TextFile
+from fdspec.records.units import to_si
+
+NAME: Final = "K-NET or KiK-net"
+HEADER_LINES: Final = 17
+DIRECTIONS: Final = MappingProxyType(
+    {
+        "1": "NS (borehole)",
+        "2": "EW (borehole)",
+        "3": "UD (borehole)",
+        "4": "NS (surface)",
+        "5": "EW (surface)",
+        "6": "UD (surface)",
+    }
+)
+"""KiK-net numbers its six instruments."""
+
+_SCALE: Final = re.compile(r"([\d.]{1,12})\(gal\)/([\d.]{1,15})")
+
+
+def recognises(text: TextFile) -> bool:
+    """Say whether the header's first and fourteenth lines are NIED's."""
+    lines = text.lines
+    return (
+        len(lines) > HEADER_LINES
+        and lines[0].startswith("Origin Time")
+        and lines[13].startswith("Scale Factor")
+    )
+
+
+def read(text: TextFile) -> tuple[Channel, ...]:
+    """Read the one channel of the file, without the instrument's offset.
+
+    The counts have an offset that is no ground motion; the header's own maximum is without it. It is the mean
+    of the record.
+    """
+    values = [line[18:].strip() for line in text.lines[:HEADER_LINES]]
+    rate = whole_number(text, {"Sampling Freq(Hz)": (11, values[10].removesuffix("Hz"))}, "Sampling Freq(Hz)")
+    seconds = whole_number(text, {"Duration Time(s)": (12, values[11])}, "Duration Time(s)")
+    match = _SCALE.fullmatch(values[13])
+    scale = (parse_number(match[1]), parse_number(match[2])) if match else (None, None)
+    if not scale[0] or not scale[1]:
+        raise text.refusal(14, f"expected a Scale Factor like 3920(gal)/6182761, found {values[13]!r}")
+    counts = parse_block(text, HEADER_LINES + 1, len(text.lines))
+    if counts.size != rate * seconds:
+        expected = f"expected {rate * seconds} values, {rate} Hz for {seconds} s"
+        raise text.refusal(len(text.lines), f"{expected}, but found {counts.size}")
+    offset = float(counts.mean())
+    direction = DIRECTIONS.get(values[12], values[12])
+    channel = Channel(
+        name=direction,
+        acceleration=to_si((counts - offset) * scale[0] / scale[1], "cm/s2"),
+        dt=1.0 / rate,
+        units="cm/s2",
+        event=f"{values[0]} M{values[4]}",
+        station=values[5],
+        component=direction,
+        processing=(f"offset of {offset:.1f} counts, the record's mean, removed on reading",),
+    )
+    return (channel,)
