@@ -31,6 +31,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 KERNELS = Path(__file__).with_name("kernels")
 
 float1d = types.Array(types.float64, 1, "C")
+ground1d = types.Array(types.float64, 1, "C", readonly=True)
 float2d = types.Array(types.float64, 2, "C")
 float3d = types.Array(types.float64, 3, "C")
 int1d = types.Array(types.int64, 1, "C")
@@ -60,7 +61,9 @@ def cache_folder() -> Path | None:
     named = os.environ.get("FDSPEC_CACHE_DIR") or config.CACHE_DIR
     home = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
     user = f"fdspec-{os.getuid()}" if hasattr(os, "getuid") else "fdspec"
-    candidates = [named] if named else [os.path.join(home, "fdspec"), os.path.join(tempfile.gettempdir(), user)]
+    candidates = (
+        [named] if named else [os.path.join(home, "fdspec"), os.path.join(tempfile.gettempdir(), user)]
+    )
     for candidate in candidates:
         folder = Path(candidate) / source_key()
         try:
@@ -78,6 +81,12 @@ CACHE = cache_folder()
 def inner(function: Function) -> Function:
     """Compile a rule that other kernels call; LLVM inlines it where that pays."""
     compiled: Function = numba.njit(nogil=True, error_model="numpy")(function)
+    return compiled
+
+
+def inlined(function: Function) -> Function:
+    """Compile a rule of the time loop; a call would copy its tuples of constants onto the stack."""
+    compiled: Function = numba.njit(nogil=True, error_model="numpy", forceinline=True)(function)
     return compiled
 
 

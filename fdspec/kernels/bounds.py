@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from fdspec.jit import inner
+from fdspec.jit import inlined, inner
 from fdspec.kernels.types import STICK, Force
 
 
-@inner
+@inlined
 def forcing(plan, phase, offset, acceleration, rate):
     """Force over mass on a piece that begins at this ground acceleration (m/s2) and rate (m/s3)."""
     if phase == STICK:
@@ -19,19 +19,19 @@ def forcing(plan, phase, offset, acceleration, rate):
     return Force(floor, -rate, 0.0, 0.0)
 
 
-@inner
+@inlined
 def relative_acceleration(branch, x, v, force):
     """x'' of an oscillator under this force over mass."""
     return force - branch.g * v - branch.w2 * x
 
 
-@inner
+@inlined
 def swing(branch, v, a, force_rate):
     """Amplitude (m/s) that bounds free motion: |d^k v/dt^k| <= rate^k swing for k >= 1."""
     return abs(v) + abs(force_rate) * branch.drift + abs(a) * branch.slowness
 
 
-@inner
+@inlined
 def crest(start, start_rise, end, end_rise, fourth):
     """Bound on a magnitude over a step, from values and rises (slope times step) at both ends."""
     inside = max(abs(start + start_rise / 3.0), abs(end - end_rise / 3.0))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from fdspec.jit import inner
+from fdspec.jit import inlined, inner
 from fdspec.kernels.oscillator import StepLoss
 from fdspec.kernels.quadrature import no_loss, series_area, series_square, step_loss
 from fdspec.kernels.roots import value_slope
@@ -33,7 +33,7 @@ def losses(plan, certify, dt):
     )
 
 
-@inner
+@inlined
 def input_work(plan, phase, start, end, floor_area, brace_area, acceleration, rate, h):
     """Work of the ground on a piece: minus the integral of (m_f u' + m_d d') a_g, by parts."""
     floor = acceleration * (end.u - start.u) + rate * (h * end.u - floor_area)

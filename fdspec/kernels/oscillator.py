@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from fdspec.jit import inner
+from fdspec.jit import inlined, inner
 
 SERIES_RADIANS = 1.0
 """Below this phase the closed form loses digits to cancellation, and the series is short."""
@@ -152,7 +152,7 @@ def step_map(g, w2, h):
     return StepMap(xx, sine, x0, x1, -w2 * sine, cosine - a * sine, sine, x0, i_x, x0, x1, i1)
 
 
-@inner
+@inlined
 def advance(step, x, v, p0, p1):
     """Displacement and velocity at the end of a step."""
     return (
@@ -161,13 +161,13 @@ def advance(step, x, v, p0, p1):
     )
 
 
-@inner
+@inlined
 def area(step, x, v, p0, p1):
     """Integral of displacement over a step."""
     return step.ix * x + step.iv * v + step.i0 * p0 + step.i1 * p1
 
 
-@inner
+@inlined
 def square_integral(loss, x, v, p0, p1):
     """Integral of velocity squared over a step."""
     return (

@@ -17,7 +17,7 @@ sliding velocity): p(x) = x^lo q(x), and q is searched instead.
 
 from __future__ import annotations
 
-from fdspec.jit import inner
+from fdspec.jit import inlined, inner
 
 NO_ROOT = 2.0
 """Returned where there is no root in [0, 1]."""
@@ -58,7 +58,7 @@ def curvature(c, lo, n, x):
     return result
 
 
-@inner
+@inlined
 def clears(start, start_rise, end, end_rise, fourth):
     """Whether a quantity surely stays positive on a step.
 

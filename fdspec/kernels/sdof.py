@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 
-from fdspec.jit import inner
+from fdspec.jit import inlined, inner
 from fdspec.kernels.bounds import forcing
 from fdspec.kernels.energy import input_work, series_work, stored_energy
 from fdspec.kernels.friction import GOES_ON, phase_after_stop, reaction, sliding_kick
@@ -72,7 +72,7 @@ NO_KICK = -1.0
 """Sliding acceleration handed on where no slip begins with a piece."""
 
 
-@inner
+@inlined
 def floor_acceleration(plan, phase, offset, motion):
     """Absolute acceleration of the floor, m/s2."""
     if phase == STICK:
@@ -83,7 +83,7 @@ def floor_acceleration(plan, phase, offset, motion):
     return -push - b.g * motion.v - b.w2 * motion.u
 
 
-@inner
+@inlined
 def with_instant(plan, phase, offset, motion, peaks):
     """Peaks with those of one instant: the far side of each jump in acceleration."""
     return Peaks(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import types
 
-from fdspec.jit import entry, float1d, float2d, int1d, record_of
+from fdspec.jit import entry, float1d, float2d, ground1d, int1d, record_of
 from fdspec.kernels.energy import losses
 from fdspec.kernels.plan import plan
 from fdspec.kernels.sdof import WORK_SHAPE, history
@@ -18,7 +18,7 @@ RADIANS = 1.0
 @entry(
     types.void(
         record_of(Storey),
-        float1d,
+        ground1d,
         types.float64,
         types.int64,
         types.float64,

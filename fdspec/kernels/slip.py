@@ -7,14 +7,14 @@ from __future__ import annotations
 
 import math
 
-from fdspec.jit import inner
+from fdspec.jit import inlined, inner
 from fdspec.kernels.bounds import crest, relative_acceleration, swing, velocity_series
 from fdspec.kernels.oscillator import expand
 from fdspec.kernels.roots import clears, first_root, largest_magnitude
 from fdspec.kernels.types import BRACE, FLOOR, SEARCH, Peaks
 
 
-@inner
+@inlined
 def slip_fourths(plan, motion, force, h):
     """Bounds on h^4 times fourth derivatives over the piece: floor u and v, brace d and e."""
     a = relative_acceleration(plan.floor, motion.u, motion.v, force.p0)
@@ -29,7 +29,7 @@ def slip_fourths(plan, motion, force, h):
     return cube * h, cube * theta, ring * h, ring * phi
 
 
-@inner
+@inlined
 def slip_is_quiet(plan, start, end, force, phase, h):
     """Whether the sliding velocity surely keeps its sign on the piece."""
     a0 = relative_acceleration(plan.floor, start.u, start.v, force.p0)
@@ -65,7 +65,7 @@ def search_slip(plan, work, n, h, phase, kick):
     return first_root(slide, 0, n, float(phase))
 
 
-@inner
+@inlined
 def base_shear(storey, motion):
     """Force (N) of columns and brace on the ground."""
     return (
@@ -76,7 +76,7 @@ def base_shear(storey, motion):
     )
 
 
-@inner
+@inlined
 def slip_peaks(plan, work, n, expanded, start, end, force, phase, h, peaks):
     """Peaks over a slip piece: its end, and extrema inside where bounds leave room for one."""
     storey = plan.storey
@@ -151,7 +151,7 @@ def slip_peaks(plan, work, n, expanded, start, end, force, phase, h, peaks):
     return Peaks(acceleration, displacement, velocity, shear)
 
 
-@inner
+@inlined
 def stride_is_quiet(plan, start, end, force, phase, dt, ground, peaks):
     """Whether a whole record step of slip surely holds no stop and no new peak inside.
 

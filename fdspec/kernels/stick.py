@@ -5,20 +5,20 @@ Study, equations (2) to (4).
 
 from __future__ import annotations
 
-from fdspec.jit import inner
+from fdspec.jit import inlined, inner
 from fdspec.kernels.bounds import crest, relative_acceleration, swing, velocity_series
 from fdspec.kernels.oscillator import expand
 from fdspec.kernels.roots import NO_ROOT, clears, first_root, largest_magnitude
 from fdspec.kernels.types import FLOOR, SEARCH, STICK, Peaks
 
 
-@inner
+@inlined
 def held_force(plan, u, v, offset):
     """Reaction (N) of the sticking damper."""
     return plan.hold_u * u + plan.hold_v * v - plan.hold_offset * offset
 
 
-@inner
+@inlined
 def stick_fourths(plan, motion, force, h):
     """Bounds on h^4 times the fourth derivative of displacement and of velocity over the piece."""
     a = relative_acceleration(plan.stick, motion.u, motion.v, force.p0)
@@ -27,7 +27,7 @@ def stick_fourths(plan, motion, force, h):
     return cube * h, cube * theta
 
 
-@inner
+@inlined
 def stick_is_quiet(plan, start, end, force, offset, h):
     """Whether the reaction surely stays within the slip force on the piece."""
     limit = plan.storey.slip_force
@@ -68,7 +68,7 @@ def search_stick(plan, work, n, h, offset, touching):
     return best, sign
 
 
-@inner
+@inlined
 def stick_peaks(plan, work, n, expanded, start, end, force, offset, h, peaks):
     """Peaks over a stick piece: its end, and extrema inside where bounds leave room for one."""
     b = plan.stick
