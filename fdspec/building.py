@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +18,36 @@ from fdspec.kernels.types import Storey
 __all__ = ["Building", "DampingMatrix", "ModalDamping", "RayleighDamping"]
 
 Array = NDArray[np.float64]
+
+
+class Frame(NamedTuple):
+    """A building for the kernel of N storeys: see `fdspec.kernels.frame` for the rows of `properties`."""
+
+    properties: Array
+    dense_stiffness: Array
+    dense_damping: Array
+
+
+class Linkage(NamedTuple):
+    """A symmetric matrix as springs between neighbours and to the ground, or whole where it is none of these.
+
+    A matrix of zeros stands beside a dense one, and an empty one beside springs.
+    """
+
+    storey: Array
+    ground: Array
+    dense: Array
+
+    @classmethod
+    def of(cls, matrix: Array) -> Linkage:
+        """Take a matrix (N, N) apart."""
+        size = matrix.shape[0]
+        if np.triu(matrix, 2).any():
+            return cls(np.zeros(size), np.zeros(size), matrix)
+        storey = np.append(0.0, -np.diag(matrix, -1))
+        ground = np.diag(matrix) - storey - np.append(storey[1:], 0.0)
+        storey[0], ground[0] = ground[0], 0.0
+        return cls(storey, ground, np.zeros((0, 0)))
 
 
 @dataclass(frozen=True, init=False, eq=False, repr=False)
@@ -318,6 +348,27 @@ class Building:
             float(self.slip_force[0]),
             float(self.kinetic_slip_force[0]),
         )
+
+    @cached_property
+    def frame(self) -> Frame:
+        """The numbers of the building as the kernel for N storeys takes them."""
+        stiffness = Linkage.of(self.stiffness_matrix)
+        if self.storey_stiffness.ndim == 1:  # as given, untouched by the way through the matrix
+            stiffness = Linkage(self.storey_stiffness, np.zeros(self.n_storeys), np.zeros((0, 0)))
+        damping = Linkage.of(self.damping_matrix)
+        rows = (
+            self.floor_mass,
+            self.brace_mass,
+            stiffness.storey,
+            stiffness.ground,
+            damping.storey,
+            damping.ground,
+            self.brace_stiffness,
+            self.brace_damping,
+            self.slip_force,
+            self.kinetic_slip_force,
+        )
+        return Frame(_read_only(np.stack(rows)), stiffness.dense, damping.dense)
 
     def _identity(self) -> tuple[Any, ...]:
         arrays = (

@@ -1,0 +1,96 @@
+"""What a storey of a frame does at a change of phase."""
+
+from __future__ import annotations
+
+from fdspec.jit import inner
+from fdspec.kernels.frame import (
+    BRACE_DAMPING,
+    BRACE_STIFFNESS,
+    KINETIC_SLIP_FORCE,
+    MASSLESS,
+    PLAIN,
+    SLIP_FORCE,
+)
+from fdspec.kernels.friction import GOES_ON, phase_after_stop
+from fdspec.kernels.taylor import DISPLACEMENT, SLIDING_VELOCITY, SLIP_OFFSET
+from fdspec.kernels.types import STICK
+
+ANCHOR = 0
+"""Slip offset where the present slip began, m."""
+TRAVEL = 1
+"""Distance slipped in the phases that are over, m."""
+RELEASE = 2
+"""Energy that a massless brace lost to friction in snapping back, J."""
+TALLY_ROWS = 3
+"""Rows of the ``tally`` array (3, N)."""
+
+
+@inner
+def begin_slip(frame, kind, phase, fresh, state, tally, i, sign):
+    """Start slip from stick in this direction.
+
+    With equal static and kinetic friction the sliding acceleration begins at zero as well.  A massless
+    brace follows at once: without a dashpot it springs back to where kinetic friction holds it, with
+    one its velocity does.
+    """
+    static = frame[SLIP_FORCE, i]
+    kinetic = frame[KINETIC_SLIP_FORCE, i]
+    phase[i] = sign
+    tally[ANCHOR, i] = state[SLIP_OFFSET, i]
+    state[SLIDING_VELOCITY, i] = 0.0
+    if kind[i] == PLAIN:
+        fresh[i] = 2 if static == kinetic else 1
+    elif frame[BRACE_DAMPING, i] > 0.0:
+        fresh[i] = 1 if static == kinetic else 0
+    else:
+        fresh[i] = 0
+        u = state[DISPLACEMENT]
+        drift = u[i] - (u[i - 1] if i > 0 else 0.0)
+        stiffness = frame[BRACE_STIFFNESS, i]
+        before = drift - state[SLIP_OFFSET, i]
+        after = sign * kinetic / stiffness
+        state[SLIP_OFFSET, i] = drift - after
+        tally[RELEASE, i] += 0.5 * stiffness * (before - after) * (before - after)
+
+
+@inner
+def end_slip(frame, kind, phase, fresh, touching, state, tally, i, held):
+    """Decide, at zero sliding velocity, between stick, reversal and going on; ``held`` is the reaction
+    that sticking would need.  Return whether the phase changed."""
+    sign = phase[i]
+    state[SLIDING_VELOCITY, i] = 0.0
+    if frame[SLIP_FORCE, i] == 0.0:  # free sliding has no phases; only its distance is counted by direction
+        close_travel(state, tally, i, sign)
+        phase[i] = -sign
+        fresh[i] = 1
+        return False
+    if kind[i] == MASSLESS:
+        held = sign * frame[KINETIC_SLIP_FORCE, i]
+    after = phase_after_stop(sign, held, frame[SLIP_FORCE, i])
+    if after == GOES_ON:
+        fresh[i] = 1
+        return False
+    close_travel(state, tally, i, sign)
+    phase[i] = after
+    fresh[i] = 0
+    if after != STICK:
+        fresh[i] = 1
+    elif abs(held) == frame[SLIP_FORCE, i]:
+        touching[i] = sign
+        fresh[i] = 1
+        if kind[i] == MASSLESS and frame[BRACE_DAMPING, i] == 0.0:
+            fresh[i] = 2
+    return True
+
+
+@inner
+def close_travel(state, tally, i, sign):
+    """Count the distance slipped since the slip began, and begin anew."""
+    tally[TRAVEL, i] += sign * (state[SLIP_OFFSET, i] - tally[ANCHOR, i])
+    tally[ANCHOR, i] = state[SLIP_OFFSET, i]
+
+
+@inner
+def travel_so_far(phase, offset, tally, i):
+    """Distance (m) slipped up to an instant with this offset."""
+    return tally[TRAVEL, i] + phase[i] * (offset - tally[ANCHOR, i])

@@ -1,0 +1,454 @@
+"""One history of a frame of N storeys, event by event.
+
+Between two changes of phase the frame is linear and its forcing linear in time.  Its motion over a
+step of a few radians of its fastest part is a Taylor series complete to rounding, in which every
+storey's reaction and sliding velocity is a polynomial: the first root of any of them ends the step,
+that storey changes its phase, and the next step starts there.  Only storeys that slip have their
+brace in the motion, so a frame that sticks is stepped as slowly as its record.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import types
+
+from fdspec.jit import entry, float1d, float2d, float3d, inner, int1d
+from fdspec.kernels.frame import (
+    FRAME_ROWS,
+    KINETIC_SLIP_FORCE,
+    MODEL_ROWS,
+    NO_BRACE,
+    PLAIN,
+    SLIP_FORCE,
+    fastest_rate,
+    held_rates,
+    kind_of,
+    prepare,
+    rate_of,
+    set_phase,
+)
+from fdspec.kernels.frame_energy import (
+    input_work,
+    kinetic_energy,
+    stored_energy,
+    strain_energy,
+    viscous_work,
+)
+from fdspec.kernels.frame_peaks import PEAK_ROWS, raise_peaks, storey_shear
+from fdspec.kernels.frame_phase import RELEASE, TALLY_ROWS, begin_slip, end_slip, travel_so_far
+from fdspec.kernels.frame_search import SAME_INSTANT, search
+from fdspec.kernels.roots import value, value_slope
+from fdspec.kernels.taylor import (
+    DISPLACEMENT,
+    FLOOR,
+    INERTIA,
+    OFFSET,
+    REACTION,
+    SLIDING_VELOCITY,
+    SLIP_OFFSET,
+    TERMS,
+    VELOCITY,
+    end_of_step,
+    expand,
+    order_for,
+    reaction_now,
+    shorten,
+)
+from fdspec.kernels.types import (
+    NON_FINITE_STATE,
+    OK,
+    STICK,
+    TRANSITION_CAP,
+    TRANSITION_CAP_REACHED,
+)
+
+given1d = types.Array(types.float64, 1, "C", readonly=True)
+given2d = types.Array(types.float64, 2, "C", readonly=True)
+
+RADIANS = 1.0
+"""Longest phase of a step; no result depends on it."""
+
+STOREY_RESULTS = (
+    "peak_acceleration",
+    "peak_displacement",
+    "peak_velocity",
+    "peak_drift",
+    "peak_storey_shear",
+    "peak_brace_displacement",
+    "residual_displacement",
+    "residual_brace_displacement",
+    "slip_travel",
+    "storey_transitions",
+    "storey_friction_energy",
+)
+"""Rows of ``by_storey`` (11, N); the first six are the peaks."""
+
+TOTALS = ("transitions", "dissipated_energy", "viscous_energy", "input_energy", "energy_error", "status")
+"""Entries of ``totals`` (6,)."""
+
+STOREY_TRACES = (
+    "displacement",
+    "velocity",
+    "acceleration",
+    "storey_shear",
+    "brace_displacement",
+    "brace_velocity",
+    "friction_force",
+    "phase",
+    "slip_travel",
+    "storey_friction_energy",
+)
+"""Columns of ``traces`` (m, 10, N)."""
+
+TOTAL_TRACES = ("input_energy", "viscous_energy", "kinetic_energy", "strain_energy")
+"""Columns of ``energies`` (m, 4)."""
+
+NO_TIME = 1e-13
+"""Fraction of a record step that counts as its end."""
+
+
+@inner
+def history(
+    frame,
+    dense_stiffness,
+    dense_damping,
+    ground,
+    dt,
+    free_steps,
+    certify,
+    start,
+    radians,
+    extra,
+    times,
+    storeys,
+    phases,
+    dt_out,
+    traces,
+    energies,
+    by_storey,
+    totals,
+):
+    """Integrate one history; see :func:`integrate`."""
+    size = frame.shape[1]
+    model = np.zeros((MODEL_ROWS, size))
+    state = np.zeros((4, size))
+    tally = np.zeros((TALLY_ROWS, size))
+    series = np.zeros((4, TERMS, size + 1))
+    tail = np.zeros((4, size + 1))
+    c = np.zeros(TERMS)
+    instants = np.zeros(size)
+    signs = np.zeros(size, np.int64)
+    kind = np.zeros(size, np.int64)
+    phase = np.zeros(size, np.int64)
+    fresh = np.zeros(size, np.int64)
+    touching = np.zeros(size, np.int64)
+    for row in range(by_storey.shape[0]):
+        for i in range(size):
+            by_storey[row, i] = 0.0
+    peaks = by_storey[:PEAK_ROWS]
+    counts = by_storey[9]
+
+    held = held_rates(frame, dense_stiffness, dense_damping)
+    held_rate = rate_of(held[0], held[1])
+    prepare(frame, model, held)
+    for i in range(size):
+        kind[i] = kind_of(frame, i)
+        state[DISPLACEMENT, i] = start[0, i]
+        state[VELOCITY, i] = start[1, i]
+        state[SLIP_OFFSET, i] = start[0, i] - start[2, i]
+        state[SLIDING_VELOCITY, i] = start[1, i] - start[3, i] if kind[i] == PLAIN else 0.0
+        if kind[i] == NO_BRACE:
+            state[SLIP_OFFSET, i] = 0.0
+        tally[0, i] = state[SLIP_OFFSET, i]
+        set_phase(frame, model, phase, i)
+    stored = stored_energy(frame, dense_stiffness, state)
+    transitions = 0
+    for i in range(size):
+        if kind[i] == NO_BRACE:
+            continue
+        reaction = reaction_now(frame, model, dense_stiffness, dense_damping, state, i)
+        if frame[SLIP_FORCE, i] == 0.0:
+            sliding = state[SLIDING_VELOCITY, i]
+            begin_slip(frame, kind, phase, fresh, state, tally, i, 1 if sliding >= 0.0 else -1)
+            state[SLIDING_VELOCITY, i] = sliding
+            fresh[i] = 0
+        elif state[SLIDING_VELOCITY, i] != 0.0:
+            phase[i] = 1 if state[SLIDING_VELOCITY, i] > 0.0 else -1
+        elif abs(reaction) > frame[SLIP_FORCE, i]:
+            begin_slip(frame, kind, phase, fresh, state, tally, i, 1 if reaction > 0.0 else -1)
+            fresh[i] = min(fresh[i], 1)
+            counts[i] += 1.0
+            if transitions < times.size:
+                times[transitions] = 0.0
+                storeys[transitions] = i
+                phases[transitions] = phase[i]
+            transitions += 1
+    for i in range(size):
+        set_phase(frame, model, phase, i)
+    rate = fastest_rate(model, phase, held_rate)
+
+    tracing = traces.shape[0] > 0
+    status = OK
+    work_in = 0.0
+    viscous = 0.0
+    written = 0
+    events = 0
+    steps = ground.size - 1
+    for step in range(steps + free_steps):
+        a0 = 0.0
+        slope = 0.0
+        if step < steps:
+            a0 = ground[step]
+            slope = (ground[step + 1] - a0) / dt
+        tau = 0.0
+        while True:
+            parts = max(1, int(math.ceil((dt - tau) * rate / radians - 1e-9)))
+            h = (dt - tau) / parts
+            n = order_for(rate * h, extra)
+            acceleration = a0 + slope * tau
+            rise = slope * h
+            expand(
+                frame,
+                model,
+                kind,
+                dense_stiffness,
+                dense_damping,
+                state,
+                fresh,
+                phase,
+                n,
+                h,
+                acceleration,
+                rise,
+                series,
+            )
+            x = search(frame, kind, phase, fresh, touching, series, n, c, instants, signs)
+            happens = x <= 1.0
+            if happens and 0.0 < x < 1.0:
+                shorten(series, n, x)
+                h *= x
+                rise *= x
+            if tracing:
+                reached = tau + h
+                final = step == steps + free_steps - 1 and not happens and parts == 1
+                while written < traces.shape[0]:
+                    at = written * dt_out - step * dt
+                    if at > reached and not (final and at <= reached + 1e-6 * dt):
+                        break
+                    y = min(max((at - tau) / h, 0.0), 1.0)
+                    if happens and x == 0.0:
+                        y = 0.0
+                    energies[written, 0] = work_in + input_work(frame, series, n, acceleration, rise, y)
+                    energies[written, 1] = viscous + viscous_work(
+                        frame, dense_damping, series, n, h, y, tail[0], tail[1]
+                    )
+                    write_traces(
+                        frame,
+                        dense_stiffness,
+                        phase,
+                        model,
+                        series,
+                        n,
+                        h,
+                        y,
+                        tally,
+                        state,
+                        c,
+                        traces[written],
+                        energies[written],
+                    )
+                    written += 1
+            if x > 0.0:
+                raise_peaks(frame, series, n, h, c, tail, peaks)
+                work_in += input_work(frame, series, n, acceleration, rise, 1.0)
+                if certify or tracing:
+                    viscous += viscous_work(frame, dense_damping, series, n, h, 1.0, tail[0], tail[1])
+                end_of_step(series, phase, n, h, state)
+                for i in range(size):
+                    fresh[i] = 0
+                    touching[i] = 0
+                tau += h
+            if not happens:
+                if parts == 1:
+                    break
+                continue
+            for i in range(size):
+                if instants[i] > x + SAME_INSTANT:
+                    continue
+                changed = True
+                if phase[i] == STICK:
+                    touching[i] = 0
+                    begin_slip(frame, kind, phase, fresh, state, tally, i, signs[i])
+                else:
+                    reaction = reaction_now(frame, model, dense_stiffness, dense_damping, state, i)
+                    changed = end_slip(frame, kind, phase, fresh, touching, state, tally, i, reaction)
+                if changed:
+                    if transitions < times.size:
+                        times[transitions] = step * dt + tau
+                        storeys[transitions] = i
+                        phases[transitions] = phase[i]
+                    transitions += 1
+                    counts[i] += 1.0
+                events += 1
+            for i in range(size):
+                if instants[i] <= x + SAME_INSTANT:
+                    set_phase(frame, model, phase, i)
+            rate = fastest_rate(model, phase, held_rate)
+            if events > TRANSITION_CAP:
+                status = TRANSITION_CAP_REACHED
+                break
+            if dt - tau <= NO_TIME * dt:
+                break
+        for i in range(size):
+            if not math.isfinite(state[DISPLACEMENT, i] + state[VELOCITY, i]):
+                status = NON_FINITE_STATE
+        if status != OK:
+            break
+
+    friction = 0.0
+    for i in range(size):
+        travel = travel_so_far(phase, state[SLIP_OFFSET, i], tally, i)
+        work = tally[RELEASE, i]
+        if travel > 0.0:
+            work += frame[KINETIC_SLIP_FORCE, i] * travel
+        friction += work
+        by_storey[6, i] = state[DISPLACEMENT, i]
+        by_storey[7, i] = state[DISPLACEMENT, i] - state[SLIP_OFFSET, i]
+        by_storey[8, i] = travel
+        by_storey[10, i] = work
+    error = 0.0
+    if certify:
+        scale = abs(work_in) + stored
+        if scale > 0.0:
+            now = stored_energy(frame, dense_stiffness, state)
+            error = (work_in + stored - now - viscous - friction) / scale
+    totals[0] = transitions
+    totals[1] = friction
+    totals[2] = viscous
+    totals[3] = work_in
+    totals[4] = error
+    totals[5] = status
+
+
+@inner
+def write_traces(frame, dense_stiffness, phase, model, series, n, h, y, tally, state, c, trace, energy):
+    """Write the motion at the fraction y of a step, before what happens at its end."""
+    size = frame.shape[1]
+    velocity = np.empty(size)
+    sliding = np.empty(size)
+    u = np.empty(size)
+    offset = np.empty(size)
+    for i in range(size):
+        for k in range(n + 1):
+            c[k] = series[FLOOR, k, i + 1]
+        u[i], velocity[i] = value_slope(c, 0, n, y)
+        velocity[i] /= h
+        offset[i] = state[SLIP_OFFSET, i]
+        sliding[i] = 0.0
+        if phase[i] != STICK:
+            for k in range(n + 1):
+                c[k] = series[OFFSET, k, i + 1]
+            offset[i], sliding[i] = value_slope(c, 0, n, y)
+            sliding[i] /= h
+        trace[0, i] = u[i]
+        trace[1, i] = velocity[i]
+        for k in range(n - 1):
+            c[k] = series[INERTIA, k, i + 1]
+        trace[2, i] = value(c, n - 2, y)
+        storey_shear(frame, series, n, h, i, c)
+        trace[3, i] = value(c, n - 2, y)
+        trace[4, i] = u[i] - offset[i]
+        trace[5, i] = velocity[i] - sliding[i]
+        force = phase[i] * frame[KINETIC_SLIP_FORCE, i]
+        if phase[i] == STICK:
+            for k in range(n - 1):
+                c[k] = series[REACTION, k, i + 1]
+            force = value(c, n - 2, y)
+        trace[6, i] = force
+        trace[7, i] = phase[i]
+        travel = travel_so_far(phase, offset[i], tally, i)
+        trace[8, i] = travel
+        trace[9, i] = tally[RELEASE, i]
+        if travel > 0.0:
+            trace[9, i] += frame[KINETIC_SLIP_FORCE, i] * travel
+    energy[2] = kinetic_energy(frame, velocity, sliding)
+    energy[3] = strain_energy(frame, dense_stiffness, u, offset)
+
+
+@entry(
+    types.void(
+        given2d,
+        given2d,
+        given2d,
+        given1d,
+        types.float64,
+        types.int64,
+        types.boolean,
+        given2d,
+        types.float64,
+        types.int64,
+        float1d,
+        int1d,
+        int1d,
+        types.float64,
+        float3d,
+        float2d,
+        float2d,
+        float1d,
+    )
+)
+def integrate(
+    frame,
+    dense_stiffness,
+    dense_damping,
+    ground,
+    dt,
+    free_steps,
+    certify,
+    start,
+    radians,
+    extra,
+    times,
+    storeys,
+    phases,
+    dt_out,
+    traces,
+    energies,
+    by_storey,
+    totals,
+):
+    """Integrate one history of a frame of N storeys.
+
+    frame (FRAME_ROWS, N), dense_stiffness and dense_damping (N, N), or (0, 0) where there is nothing
+    beside the springs and dashpots of ``frame``: see :mod:`fdspec.kernels.frame`.  ground: acceleration
+    at the samples dt apart, m/s2, (n,); free_steps: steps of dt with the ground at rest that follow.
+    start (4, N): displacement and velocity of floors, then of braces, at t = 0.  radians: longest phase
+    of a step; extra: terms beyond those the series needs.
+
+    times, storeys, phases (as many as there is room for): changes of phase in the order of time.
+    traces (m, len(STOREY_TRACES), N), energies (m, len(TOTAL_TRACES)): filled at k dt_out for k < m.
+    by_storey (len(STOREY_RESULTS), N), totals (len(TOTALS),): results.  viscous_energy and energy_error
+    are worked out where ``certify`` says so; traces need the first and cost it.
+    """
+    history(
+        frame,
+        dense_stiffness,
+        dense_damping,
+        ground,
+        dt,
+        free_steps,
+        certify,
+        start,
+        radians,
+        extra,
+        times,
+        storeys,
+        phases,
+        dt_out,
+        traces,
+        energies,
+        by_storey,
+        totals,
+    )
