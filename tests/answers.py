@@ -1,4 +1,4 @@
-"""A random cell's answer by each of fdspec's ways: a sweep of one point, and one history with its course in time."""
+"""A random cell's answer by each of fdspec's ways: a sweep of one point, and one simulated history."""
 
 from __future__ import annotations
 

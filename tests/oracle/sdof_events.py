@@ -17,6 +17,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tests.cells import FLOOR_MASS, Cell
+
 Real = np.longdouble
 Array = NDArray[np.longdouble]
 
@@ -154,12 +156,12 @@ class Phase:
         unit = np.eye(7, dtype=Real)
         self.peaks = np.stack([acceleration, unit[U_F], unit[V_F], shear])
 
-        if phase == STICK:
+        self.conditions: list[Array] = []
+        if phase != STICK:
+            self.conditions = [phase * (unit[V_F] - unit[V_D])]
+        elif math.isfinite(storey.static_force):
             limit = Real(storey.static_force) * unit[ONE]
-            conditions = [limit - self.reaction, limit + self.reaction]
-        else:
-            conditions = [phase * (unit[V_F] - unit[V_D])]
-        self.conditions = np.stack(conditions)
+            self.conditions = [limit - self.reaction, limit + self.reaction]
         self._stacks: dict[tuple[float, int], Array] = {}
 
     def series(self, row: Array, z: Array) -> Array:
@@ -293,8 +295,6 @@ class Integrator:
     ) -> tuple[int, Real] | None:
         first: tuple[int, Real] | None = None
         for row, zeros in zip(phase.conditions, vanishing, strict=False):
-            if not np.all(np.isfinite(row)):
-                continue
             value = states @ row
             slope = states @ (row @ phase.matrix)
             margin = 2 * h * (np.abs(slope[:-1]) + np.abs(slope[1:]))
@@ -494,6 +494,20 @@ class Integrator:
             z = states[-1]
             done += size
         return z, length
+
+
+def of_cell(cell: Cell, slip_force: float | None = None) -> Storey:
+    """The storey of a random cell, with its own slip force or this one."""
+    return Storey.from_period(
+        cell.period,
+        cell.stiffness_ratio,
+        cell.slip_force if slip_force is None else slip_force,
+        FLOOR_MASS,
+        cell.brace_mass,
+        cell.damping_ratio,
+        cell.brace_damping_ratio,
+        cell.kinetic_slip_force,
+    )
 
 
 def integrate(
