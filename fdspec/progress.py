@@ -13,7 +13,9 @@ DELAY: Final = 1.0
 
 
 @contextmanager
-def progress(total: int, what: str, *, shown: bool = True, delay: float = DELAY) -> Iterator[Callable[[int], None]]:
+def progress(
+    total: int, what: str, *, shown: bool = True, delay: float = DELAY
+) -> Iterator[Callable[[int], None]]:
     """Show how much of `total` is done while the block runs.
 
     Parameters
@@ -36,7 +38,14 @@ def progress(total: int, what: str, *, shown: bool = True, delay: float = DELAY)
         yield lambda _: None
         return
     from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
 
     bar = Progress(
         TextColumn("{task.description}"),

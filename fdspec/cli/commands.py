@@ -6,7 +6,10 @@ from fdspec import __version__
 from fdspec.cli.lazy import LazyGroup
 
 COMMANDS = {
-    "sweep": ("fdspec.cli.sweep:sweep", "Compute the cube of a study; without a file, the study of the nine records."),
+    "sweep": (
+        "fdspec.cli.sweep:sweep",
+        "Compute the cube of a study; without a file, the study of the nine records.",
+    ),
     "simulate": ("fdspec.cli.simulate:simulate", "Compute the history of one frame under one record."),
     "records": ("fdspec.cli.records:records", "List and show the records of the catalogue."),
     "figures": ("fdspec.cli.figures:figures", "Draw the acceleration over pretension and period."),

@@ -9,7 +9,9 @@ from fdspec.cli.output import force_option, free
 
 @click.command()
 @click.argument("cube", metavar="CUBE.nc")
-@click.option("-o", "--output", required=True, metavar="FILE", help="What to write; .nc or .csv says the form.")
+@click.option(
+    "-o", "--output", required=True, metavar="FILE", help="What to write; .nc or .csv says the form."
+)
 @click.option("--record", metavar="NAME", help="The record; may be left out where the cube has one.")
 @force_option
 def export(cube: str, output: str, record: str | None, force: bool) -> None:

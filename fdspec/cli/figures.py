@@ -12,15 +12,21 @@ from fdspec.errors import InvalidInput, StoreError
 
 @click.command()
 @click.argument("cube", metavar="CUBE.nc")
-@click.option("-o", "--output", default="figures", show_default=True, metavar="DIR", help="Folder; made if absent.")
-@click.option("--record", "records", multiple=True, metavar="NAME", help="A record of the cube; repeat it.  [default: all]")
-@click.option("--surface", is_flag=True, help="3-D surfaces, as the study has them, in place of maps.")
 @click.option(
-    "--format", "kind", type=click.Choice(["png", "pdf", "svg"]), default="png", show_default=True
+    "-o", "--output", default="figures", show_default=True, metavar="DIR", help="Folder; made if absent."
 )
+@click.option(
+    "--record",
+    "records",
+    multiple=True,
+    metavar="NAME",
+    help="A record of the cube; repeat it.  [default: all]",
+)
+@click.option("--surface", is_flag=True, help="3-D surfaces, as the study has them, in place of maps.")
+@click.option("--format", "kind", type=click.Choice(["png", "pdf", "svg"]), default="png", show_default=True)
 @force_option
 def figures(cube: str, output: str, records: tuple[str, ...], surface: bool, kind: str, force: bool) -> None:
-    """Draw the peak acceleration over pretension and period, one picture a record, one panel a stiffness ratio.
+    """Draw peak acceleration over pretension and period: a picture a record, a panel a stiffness ratio.
 
     Prints the name of each picture.
     """
@@ -53,4 +59,7 @@ def figures(cube: str, output: str, records: tuple[str, ...], surface: bool, kin
 
 def _file_stem(name: str) -> str:
     """Return a record's name as part of a file's name, whatever characters it has."""
-    return "".join(letter if letter.isalnum() or letter in "-_.() " else "_" for letter in name).strip(" .") or "_"
+    return (
+        "".join(letter if letter.isalnum() or letter in "-_.() " else "_" for letter in name).strip(" .")
+        or "_"
+    )

@@ -15,7 +15,9 @@ P = ParamSpec("P")
 R = TypeVar("R")
 
 ABOUT_FILE = (
-    click.option("--units", metavar="UNIT", help="Unit of a file that does not say it: g, m/s2, cm/s2, mm/s2."),
+    click.option(
+        "--units", metavar="UNIT", help="Unit of a file that does not say it: g, m/s2, cm/s2, mm/s2."
+    ),
     click.option("--dt", type=float, metavar="S", help="Time step of a file that does not say it, s."),
     click.option("--channel", metavar="NAME", help="Channel of a file with several."),
 )

@@ -5,8 +5,14 @@ import click
 from fdspec.cli.lazy import LazyGroup
 
 COMMANDS = {
-    "list": ("fdspec.cli.records_list:list_records", "List the study's nine records and what stands in for them."),
-    "show": ("fdspec.cli.records_show:show_record", "Show all that is known of one record, of the catalogue or a file."),
+    "list": (
+        "fdspec.cli.records_list:list_records",
+        "List the study's nine records and what stands in for them.",
+    ),
+    "show": (
+        "fdspec.cli.records_show:show_record",
+        "Show all that is known of one record, of the catalogue or a file.",
+    ),
 }
 
 

@@ -18,8 +18,8 @@ LEFT = ("name", "event", "date", "soil", "stand-in", "site")
 def list_records(as_json: bool) -> None:
     """List the study's nine records and what stands in for them.
 
-    Event, date, soil, magnitude, PGA and duration are the study's. The stand-in is station and component of the
-    real record, with the site class of its station and the factor that brings it to the study's PGA.
+    Event, date, soil, magnitude, PGA and duration are the study's. The stand-in is station and component of
+    the real record, with the site class of its station and the factor that brings it to the study's PGA.
     """
     from fdspec.records import catalogue
 
