@@ -1,6 +1,6 @@
 """Records: readers for files, and the catalogue of the study's nine."""
 
 from fdspec.records.catalogue import CatalogueEntry, StandIn, catalogue, load_record
-from fdspec.records.reading import read_record
+from fdspec.records.reading import read_channels, read_record
 
-__all__ = ["CatalogueEntry", "StandIn", "catalogue", "load_record", "read_record"]
+__all__ = ["CatalogueEntry", "StandIn", "catalogue", "load_record", "read_channels", "read_record"]

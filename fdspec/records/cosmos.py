@@ -102,6 +102,8 @@ def _section(text: TextFile, line: int, title: str) -> _Header:
         raise text.refusal(line, f"expected '{title} follow', found {text.lines[line - 1].strip()[:60]!r}")
     count = int(match[1])
     if match[3] is None:
+        if "Comment" not in title:
+            raise text.refusal(line, "expected the number of lines and a Fortran format behind the count")
         return _Header(count, count, 0, line + 1 + count)
     lines, width = int(match[3]), int(match[5])
     if count < 1 or width < 1 or lines != -(-count // max(int(match[4]), 1)):

@@ -70,5 +70,6 @@ def _traces(content: bytes, name: str) -> list[Any]:
         try:
             stream = obspy.read(io.BytesIO(content), format="MSEED")
         except Exception as error:  # a damaged file makes obspy raise nearly anything
-            raise RecordError(f"{name}: obspy cannot read this as miniSEED ({str(error)[:200]})") from error
+            reason = " ".join(str(error).split())[:200]
+            raise RecordError(f"{name}: obspy cannot read this as miniSEED ({reason})") from error
     return list(stream)

@@ -22,6 +22,7 @@ NAME: Final = "columns of text"
 MAX_HEADER: Final = 60
 
 _BRACKETED: Final = re.compile(r"[\[(]\s*([A-Za-z]+(?:/[A-Za-z]+(?:/[A-Za-z]+|\^?2)?)?)\s*[\])]")
+_STATION: Final = re.compile(r"\bstation\s*[:=]\s*(\S[^\r]*?)\s*$", re.IGNORECASE)
 
 
 def recognises(text: TextFile) -> bool:
@@ -44,12 +45,15 @@ def read(text: TextFile, *, units: str | None = None, dt: float | None = None) -
         step = uniform_step(text, first, words, dt)
         table = table[:, 1:]
     names = _names(text, first, table.shape[1])
+    event, station = _origin(text, first)
     return tuple(
         Channel(
             name,
             to_si(np.ascontiguousarray(column), unit),
             step,
             unit,
+            event=event,
+            station=station,
             component=name if len(names) > 1 else "",
         )
         for name, column in zip(names, table.T, strict=True)
@@ -113,6 +117,14 @@ def _unit(text: TextFile, first: int, given: str | None) -> str:
         choice = "give units, one of g, m/s2, cm/s2, mm/s2"
         raise text.refusal(None, f"the file {says} the unit of acceleration: {choice}")
     return found.pop()
+
+
+def _origin(text: TextFile, first: int) -> tuple[str, str]:
+    """Return event and station: the first line above the headings, and what follows the word station."""
+    header = text.lines[: max(first - 2, 0)]
+    event = header[0].strip(" #.\t") if header else ""
+    stations = [match[1] for line in header if (match := _STATION.search(line))]
+    return event, stations[0] if stations else ""
 
 
 def _names(text: TextFile, first: int, count: int) -> list[str]:

@@ -1,0 +1,243 @@
+"""The agencies' formats: what each file's own header says, and what obspy reads, is what the reader gives."""
+
+import re
+
+import numpy as np
+import pytest
+
+from fdspec.errors import RecordError
+from fdspec.records import read_channels, read_record
+from fdspec.records.formats import FORMATS
+from fdspec.units import G
+from tests.fixtures.records import samples
+from tests.fixtures.records.samples import SAMPLES
+
+# format -> channels, time step, event, station and component of the first, what opens its history
+SAID = {
+    "PEER AT2": (["090"], 0.01, "Nowhere-01, 1/2/1999", "Old Mill", "090", ""),
+    "COSMOS V1 or V2": (
+        ["90 deg", "Up"], 0.01, "Nowhere Earthquake of Sat Jan 02, 1999 12:00 UTC", "XX Old Mill", "90 deg",
+        "Record filtered below  0.10 Hz",
+    ),
+    "CSMIP V2": (
+        ["90 Deg"], 0.01, "Sat Jan 02, 1999 12:00:00.0 UTC", "Old Mill", "90 Deg",
+        "Accelerogram bandpass filtered with 3 dB pts at   .10 and 40.00 cyc/sec",
+    ),
+    "CSMIP V1": (["NS"], 0.01, "01/02/1999 12:00:00", "OLD MILL", "NS", ""),
+    "USGS SMC": (["90"], 0.01, "1999 01 02 1200 Nowhere", "Old Mill", "90", ""),
+    "ESM or ITACA ASCII": (["HNE"], 0.01, "NOWHERE 19990102", "MILL", "HNE", "by the agency: "),
+    "K-NET or KiK-net": (
+        ["E-W"], 0.02, "1999/01/02 12:00:00 M6.0", "MIL001", "E-W", "offset of ",
+    ),
+    "GeoNet V1A or V2A": (
+        ["N10E", "N80W"], 0.02, "5 km south of Nowhere, 1999 January 02 12:00:00 UT", "MILL", "N10E",
+        "Band-pass filter",
+    ),
+    "CWB": (["U", "N", "E"], 0.02, "1999/01/02-12:00:00 GMT+08", "MIL", "U", ""),
+    "columns of text": (["Accel"], 0.01, "The Nowhere earthquake", "MILL", "", ""),
+}  # fmt: skip
+
+
+def test_every_format_has_a_sample():
+    assert set(SAMPLES) == {known.name for known in FORMATS} | {"columns of text"}
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+@pytest.mark.parametrize("ending", ["\n", "\r\n"])
+def test_sample_files(record_file, name, ending):
+    text, values = SAMPLES[name]
+    channels, dt, event, station, component, first_step = SAID[name]
+    path = record_file(text.replace("\n", ending), "sample.xyz")
+    read = read_channels(path)
+    assert list(read) == channels
+    motion = read["N"] if name == "CWB" else read[channels[0]]
+    np.testing.assert_allclose(motion.acceleration, values, rtol=2e-16, atol=2e-17)
+    assert motion.dt == dt
+    first = read[channels[0]]
+    assert (first.event, first.station, first.component) == (event, station, component)
+    assert first.history[0].startswith(first_step) if first_step else first.history == ()
+    assert name in first.source
+
+
+@pytest.mark.parametrize("name", sorted(set(SAMPLES) - {"columns of text"}))
+def test_a_file_cut_anywhere_in_its_values_is_refused(record_file, name):
+    lines = SAMPLES[name][0].splitlines()
+    first_value_line = {"GeoNet V1A or V2A": 70, "COSMOS V1 or V2": 95}.get(name, len(lines) - 2)
+    # COSMOS counts its values; the line that ends them may be missing.
+    for kept in range(first_value_line, len(lines) - (name == "COSMOS V1 or V2")):
+        with pytest.raises(RecordError, match=r"^cut\.dat"):
+            read_channels(record_file("\n".join(lines[:kept]), "cut.dat"))
+
+
+COUNTS = {
+    "PEER AT2": "NPTS=     23",
+    "COSMOS V1 or V2": "      23 acceleration pts",
+    "CSMIP V2": "    23 points of accel",
+    "CSMIP V1": "NO. OF POINTS =     23",
+    "USGS SMC": "    -32768         1\n        23    -32768",
+    "ESM or ITACA ASCII": "NDATA: 23",
+    "K-NET or KiK-net": "Duration Time(s)  2",
+    "GeoNet V1A or V2A": "Number of points     23",
+    "CWB": "#RecordLength(sec): 0.46",
+}
+
+
+@pytest.mark.parametrize("name", COUNTS)
+@pytest.mark.parametrize("change", [-23, -22, -1, +1, +8, +1000])
+def test_a_damaged_count_is_refused(record_file, name, change):
+    text = SAMPLES[name][0]
+    assert COUNTS[name] in text
+    number = re.findall(r"[\d.]+", COUNTS[name])[-1]
+    if name == "USGS SMC":
+        damaged = text.replace(COUNTS[name], COUNTS[name].replace("        23", f"{23 + change:10d}"), 1)
+    elif name == "CWB":
+        damaged = text.replace(COUNTS[name], f"#RecordLength(sec): {0.46 + 0.02 * change:.2f}", 1)
+    else:
+        prefix, suffix = COUNTS[name].split(number)
+        damaged = text.replace(COUNTS[name], f"{prefix}{int(number) + change}{suffix}", 1)
+    with pytest.raises(RecordError):
+        read_channels(record_file(damaged, "damaged.dat"))
+
+
+@pytest.mark.parametrize("name", sorted(SAMPLES))
+def test_text_in_a_number_s_place_is_refused_with_its_line(record_file, name):
+    lines = SAMPLES[name][0].splitlines()
+    at = len(lines) - 2
+    lines[at] = lines[at][:2] + "__import__('os')" + lines[at][18:]
+    with pytest.raises(RecordError, match=rf"^damaged\.dat, line {at + 1}: "):
+        read_channels(record_file("\n".join(lines), "damaged.dat"))
+
+
+def test_raw_counts_are_refused(record_file):
+    text = SAMPLES["COSMOS V1 or V2"][0].replace("units=cm/sec2(04)", "units=counts (50)")
+    with pytest.raises(RecordError, match=r"line 45: .*raw counts are no acceleration"):
+        read_record(record_file(text))
+
+
+def test_other_quantities_are_refused(record_file):
+    with pytest.raises(RecordError, match="expected an accelerogram"):
+        read_record(record_file(SAMPLES["USGS SMC"][0].replace("2 CORRECTED ACCEL", "3 VELOCITY    ACCEL")))
+    with pytest.raises(RecordError, match="expected DATA_TYPE: ACCELERATION, found 'VELOCITY'"):
+        read_record(record_file(SAMPLES["ESM or ITACA ASCII"][0].replace(": ACCELERATION", ": VELOCITY")))
+
+
+def test_the_header_s_time_step_is_checked_against_its_length(record_file):
+    text = SAMPLES["COSMOS V1 or V2"][0].replace("    10.000000", "    20.000000")
+    with pytest.raises(RecordError, match=r"23 points of 0.02 s do not make 0.23 s"):
+        read_record(record_file(text), channel="Up")
+
+
+def test_channels_without_a_name_of_their_own_are_numbered(record_file):
+    text = SAMPLES["COSMOS V1 or V2"][0].replace("Sta Chan  2: Up", "Sta Chan  2: 90 deg")
+    assert list(read_channels(record_file(text))) == ["90 deg (1)", "90 deg (2)"]
+
+
+# What each real file's own header says of its channels: name, count, dt in s, peak, and its unit in m/s2.
+GAL, MM = 0.01, 0.001
+REAL = {
+    "cesmd_v1c__CE23837.V1C": [
+        ("360 deg", 13400, 0.005, 0.105, G),
+        ("Up", 13400, 0.005, 0.049, G),
+        ("90 deg", 13400, 0.005, 0.059, G),
+    ],
+    "cosmos_v2c__AKBMR.BNZ.acc.V2c": [("Other", 42000, 0.005, 6.852, GAL)],
+    "csmip_dmg_v2__CE58667.V2": [("H1", 7500, 0.01, 27.114, GAL), ("Up", 7500, 0.01, 11.244, GAL)],
+    "csmip_dmg_v2__CE89146.V2": [("360 Deg", 12000, 0.005, 77.280, GAL), ("Up", 12000, 0.005, 20.529, GAL)],
+    "csmip_dmg_v2__CIWLT.V2": [("90 Deg", 15050, 0.02, 82.584, GAL), ("360 Deg", 15029, 0.02, 115.845, GAL)],
+    "renadic_chile__arica0911131.v1": [("NS", 26600, 0.005, 0.052, G), ("V", 26600, 0.005, 0.029, G)],
+    "smc__0111a.smc": [("360", 6001, 0.005, 104.41, GAL)],
+    "esm_itaca__HI.ARS1.HNE.ACC.ASC": [("HNE", 19128, 0.005, 0.300022, GAL)],
+    "knet__AOM0011801241951.EW": [("E-W", 10200, 0.01, 4.078, GAL)],
+    "kiknet__AICH040010061330.EW2": [("EW (surface)", 28600, 0.005, 3.896, GAL)],
+    "geonet_v1a__HSES_20.V1A": [("N10E", 65536, 0.005, 2394.8, MM), ("N80W", 65536, 0.005, 2584.4, MM)],
+    "geonet_v2a__WPWS_20.V2A": [("S16W", 5800, 0.02, 41.6, MM), ("S74E", 5800, 0.02, 194.0, MM)],
+    "cwb_taiwan__1-EAS.dat": [
+        ("U", 6000, 0.02, 0.837, GAL),
+        ("N", 6000, 0.02, 2.273, GAL),
+        ("E", 6000, 0.02, 1.017, GAL),
+    ],
+}
+
+
+@pytest.mark.parametrize("name", REAL)
+def test_real_files_say_what_their_headers_say(shared_records, name):
+    read = read_channels(shared_records / "formats" / name)
+    assert len(read) == (3 if name[:4] not in {"esm_", "knet", "kikn", "smc_"} and "AKBMR" not in name else 1)
+    for channel, count, dt, peak, unit in REAL[name]:
+        digits = len(f"{peak}".split(".")[1])
+        assert (len(read[channel]), read[channel].dt) == (count, dt)
+        # As exact as the header prints it; RENADIC's own maximum is of a 3-digit sample.
+        assert abs(read[channel].pga / unit - peak) <= 0.5000001 * 10.0**-digits
+
+
+REFUSED = {
+    "cosmos_v0c__NP1795.v0c": "line 51: .*raw counts are no acceleration",
+    "cosmos_v1__Cosmos12TimeSeriesTest.v1": None,
+    "miniseed__CI.MIKB.HNE.mseed": "miniSEED does not say the unit",
+    "bhrc_iran__5520-1.V1": "expected .* columns",
+    "nsmn_turkey__20170720223109_0921.txt": "does not say the unit|expected times that grow",
+    "unam_mexico__ACAC1709.191": "the format is not recognised",
+}
+
+
+def test_every_file_of_formats_is_accounted_for(shared_records):
+    found = {path.name for path in (shared_records / "formats").iterdir() if path.is_file()}
+    others = {name for name in found if name.startswith(("peer_", "twocol_"))}  # in test_at2.py, test_text.py
+    assert found == set(REAL) | set(REFUSED) | others
+
+
+@pytest.mark.parametrize("name", [name for name, reason in REFUSED.items() if reason])
+def test_files_that_are_refused_say_why(shared_records, name):
+    with pytest.raises(RecordError, match=REFUSED[name]):
+        read_channels(shared_records / "formats" / name)
+
+
+def test_the_cosmos_example_whose_header_contradicts_its_values(shared_records):
+    """COSMOS's own test file is invented: its header gives a peak 100 times that of its values."""
+    (motion,) = read_channels(shared_records / "formats" / "cosmos_v1__Cosmos12TimeSeriesTest.v1").values()
+    assert (len(motion), motion.dt) == (7000, 0.01)
+    assert motion.acceleration[0] == -0.00001 / 100.0
+
+
+def obspy_stream(path):
+    obspy = pytest.importorskip("obspy", reason="obspy is in the extra miniseed")
+    return obspy.read(str(path))
+
+
+@pytest.mark.filterwarnings("ignore")  # obspy's own
+def test_knet_as_obspy_reads_it(shared_records):
+    for name in ("knet__AOM0011801241951.EW", "kiknet__AICH040010061330.EW2"):
+        path = shared_records / "formats" / name
+        trace = obspy_stream(path)[0]
+        expected = (trace.data - trace.data.mean()) * trace.stats.calib
+        motion = read_record(path)
+        assert motion.dt == pytest.approx(trace.stats.delta, rel=1e-15)
+        np.testing.assert_allclose(motion.acceleration, expected, rtol=1e-12, atol=1e-15)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_miniseed_as_obspy_reads_it(shared_records):
+    path = shared_records / "formats" / "miniseed__CI.MIKB.HNE.mseed"
+    trace = obspy_stream(path)[0]
+    motion = read_record(path, units="mm/s2")
+    assert motion.acceleration.tolist() == (trace.data / 1000.0).tolist()
+    assert (motion.dt, motion.station, motion.component) == (trace.stats.delta, "MIKB", "HNE")
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_miniseed_of_our_own(record_file):
+    pytest.importorskip("obspy", reason="obspy is in the extra miniseed")
+    path = record_file(samples.miniseed(), "own.mseed")
+    motion = read_record(path, units="gal")
+    assert motion.acceleration.tolist() == [value / 100.0 for value in samples.VALUES]
+    with pytest.raises(RecordError, match=r"own\.mseed: miniSEED does not say the unit"):
+        read_record(path)
+
+
+def test_miniseed_without_obspy_says_what_to_install(record_file, monkeypatch):
+    def absent(name):
+        raise ImportError(name)
+
+    monkeypatch.setattr("fdspec.records.miniseed.import_module", absent)
+    with pytest.raises(RecordError, match=r"miniSEED needs obspy: pip install 'fdspec\[miniseed\]'"):
+        read_record(record_file(b"000001D " + bytes(504), "a.mseed"), units="gal")
