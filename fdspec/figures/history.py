@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 
-FLOOR, BRACE, GROUND = "#0072B2", "#D55E00", "0.6"
+FLOOR, BRACE, GROUND = "#0072B2", "#D55E00", "#E69F00"
 """Of Okabe and Ito's palette, which colour-blind eyes can tell apart."""
 
 BANDS = ((1, "#009E73", "slips forward"), (-1, "#CC79A7", "slips backward"))
@@ -38,7 +38,8 @@ def plot_history(history: xr.Dataset, storey: int = 1) -> Figure:
     -------
     matplotlib.figure.Figure
         Displacement of floor and brace (mm), friction force (kN), phase of the damper and absolute
-        acceleration (g) over time (s); friction force over slip.
+        acceleration (g) over time (s); friction force over slip. Lines join outputs: a smaller `dt_out`
+        of the simulation sharpens the corners of the loop.
 
     Raises
     ------
@@ -51,41 +52,34 @@ def plot_history(history: xr.Dataset, storey: int = 1) -> Figure:
     one = history.sel(storey=storey)
     time = one["time"].values
     force = one["friction_force"].values / 1e3
-    figure = Figure(figsize=(11.0, 7.0), layout="constrained", dpi=150)
-    layout: list[Any] = [
-        ["displacement", "loop"],
-        ["force", "loop"],
-        ["phase", "text"],
-        ["acceleration", "text"],
-    ]
-    axes = figure.subplot_mosaic(layout, width_ratios=(2.2, 1.0), height_ratios=(1.0, 1.0, 0.12, 1.0))
+    figure = Figure(figsize=(11.0, 6.5), layout="constrained", dpi=150)
+    left, right = figure.subfigures(1, 2, width_ratios=(2.3, 1.0))
+    displaced, held, phase, accelerated = left.subplots(4, sharex=True, height_ratios=(1.0, 1.0, 0.12, 1.0))
+    loop, words = right.subplots(2, height_ratios=(1.4, 1.0))
 
-    _displacement(axes["displacement"], time, one)
-    axes["force"].plot(time, force, color=FLOOR, linewidth=0.8)
-    _limits(axes["force"], one)
-    axes["force"].set_ylabel("friction force, kN")
-    _phase(axes["phase"], history, storey)
-    _acceleration(axes["acceleration"], time, one)
-    for name in ("force", "phase", "acceleration"):
-        axes[name].sharex(axes["displacement"])
-    for name in ("displacement", "force", "phase"):
-        axes[name].tick_params(labelbottom=False)
-    axes["acceleration"].set_xlabel("time, s")
-    axes["acceleration"].set_xlim(time[0], time[-1])
+    _displacement(displaced, time, one)
+    held.plot(time, force, color=FLOOR, linewidth=0.8)
+    _limits(held, one)
+    held.set_ylabel("friction force, kN")
+    _phase(phase, history, storey)
+    _acceleration(accelerated, time, one)
+    accelerated.set_xlabel("time, s")
+    accelerated.set_xlim(time[0], time[-1])
 
     slip = (one["displacement"].values - one["brace_displacement"].values) * 1e3
-    axes["loop"].plot(slip, force, color=FLOOR, linewidth=0.8)
-    axes["loop"].set_xlabel("slip, floor less brace, mm")
-    axes["loop"].set_ylabel("friction force, kN")
-    axes["text"].set_axis_off()
-    axes["text"].text(0.05, 0.95, _summary(history, one), va="top", transform=axes["text"].transAxes)
+    loop.plot(slip, force, color=FLOOR, linewidth=0.8)
+    loop.set_xlabel("slip, floor less brace, mm")
+    loop.set_ylabel("friction force, kN")
+    words.set_axis_off()
+    words.legend(*phase.get_legend_handles_labels(), loc="upper left", frameon=False)
+    words.text(0.05, 0.7, _summary(history, one), va="top", transform=words.transAxes)
     figure.suptitle(_title(history, storey), fontsize="medium")
     return figure
 
 
 def _displacement(axis: Axes, time: FloatArray, one: xr.Dataset) -> None:
-    axis.plot(time, one["brace_displacement"].values * 1e3, color=BRACE, linewidth=0.8, label="brace")
     axis.plot(time, one["displacement"].values * 1e3, color=FLOOR, linewidth=0.8, label="floor")
+    axis.plot(time, one["brace_displacement"].values * 1e3, color=BRACE, linewidth=0.6, label="brace")
     axis.set_ylabel("displacement, mm")
     axis.legend(loc="upper right", ncols=2, frameon=False)
     axis.margins(y=0.15)
@@ -100,8 +94,8 @@ def _limits(axis: Axes, one: xr.Dataset) -> None:
 
 
 def _acceleration(axis: Axes, time: FloatArray, one: xr.Dataset) -> None:
-    axis.plot(time, one["ground_acceleration"].values / G, color=GROUND, linewidth=0.8, label="ground")
     axis.plot(time, one["acceleration"].values / G, color=FLOOR, linewidth=0.8, label="floor")
+    axis.plot(time, one["ground_acceleration"].values / G, color=GROUND, linewidth=0.6, label="ground")
     axis.set_ylabel("absolute acceleration, g")
     axis.legend(loc="upper right", ncols=2, frameon=False)
     axis.margins(y=0.15)
@@ -112,7 +106,7 @@ def _phase(axis: Axes, history: xr.Dataset, storey: int) -> None:
     spans = list(phase_spans(history, storey))
     for phase, colour, label in BANDS:
         bars = [(start, stop - start) for start, stop, found in spans if found == phase]
-        axis.broken_barh(bars, (0.0, 1.0), facecolors=colour, label=label)
+        axis.broken_barh(bars, (0.0, 1.0), facecolors=colour, edgecolors=colour, linewidth=0.5, label=label)
     axis.set_ylim(0.0, 1.0)
     axis.set_yticks([])
     axis.set_ylabel("slip", rotation=0, ha="right", va="center")
