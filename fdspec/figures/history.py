@@ -53,7 +53,7 @@ def plot_history(history: xr.Dataset, storey: int = 1) -> Figure:
     time = one["time"].values
     force = one["friction_force"].values / 1e3
     figure = Figure(figsize=(11.0, 6.5), layout="constrained", dpi=150)
-    left, right = figure.subfigures(1, 2, width_ratios=(2.3, 1.0))
+    left, right = np.ravel(figure.subfigures(1, 2, squeeze=False, width_ratios=(2.3, 1.0)))
     displaced, held, phase, accelerated = left.subplots(4, sharex=True, height_ratios=(1.0, 1.0, 0.12, 1.0))
     loop, words = right.subplots(2, height_ratios=(1.4, 1.0))
 
