@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -11,6 +12,7 @@ import numpy as np
 from fdspec.errors import StoreError
 from fdspec.store import layout
 from fdspec.store.replacing import replacing
+from fdspec.store.undisturbed import undisturbed
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -80,38 +82,35 @@ def open(path: str | os.PathLike[str], *, lazily: bool = False) -> xr.Dataset:  
     StoreError
         When the file is missing, damaged or not one of fdspec's.
     """
-    import xarray as xr
-
     _check_magic(Path(path))
     try:
-        # Values as they are: no decoding of fill values, scales or times, which `save` never writes.
-        on_disk = xr.open_dataset(
-            path,
-            engine="netcdf4",
-            mask_and_scale=False,
-            decode_times=False,
-            decode_timedelta=False,
-            cache=False,
-        )
+        with undisturbed():
+            return _read(path, lazily)
+    except StoreError:
+        raise
     except (OSError, RuntimeError, ValueError) as error:
-        raise _damaged(path, error) from error
-    try:
+        raise StoreError(
+            f"cannot open {os.fspath(path)}: the file is damaged or incomplete ({error}); write it again"
+        ) from error
+
+
+def _read(path: str | os.PathLike[str], lazily: bool) -> xr.Dataset:
+    import xarray as xr
+
+    # Values as they are: no decoding of fill values, scales or times, which `save` never writes.
+    on_disk = xr.open_dataset(
+        path, engine="netcdf4", mask_and_scale=False, decode_times=False, decode_timedelta=False, cache=False
+    )
+    with ExitStack() as closing:
+        closing.callback(on_disk.close)
         _check_format(on_disk, path)
         opened = layout.from_disk(on_disk)
         del opened.attrs[FORMAT]
-        if lazily:
-            opened.set_close(on_disk.close)
-        else:
-            opened.load()
-    except (OSError, RuntimeError, ValueError) as error:
-        on_disk.close()
-        raise error if isinstance(error, StoreError) else _damaged(path, error) from error
-    except BaseException:
-        on_disk.close()
-        raise
-    if not lazily:
-        on_disk.close()
-    return opened.drop_encoding()
+        if not lazily:
+            return opened.load().drop_encoding()
+        opened = opened.drop_encoding()
+        opened.set_close(closing.pop_all().close)
+        return opened
 
 
 def write_netcdf(on_disk: xr.Dataset, part: Path, path: str | os.PathLike[str]) -> None:
@@ -120,7 +119,8 @@ def write_netcdf(on_disk: xr.Dataset, part: Path, path: str | os.PathLike[str]) 
         name: _encoding(variable, name in on_disk.coords) for name, variable in on_disk.variables.items()
     }
     try:
-        on_disk.to_netcdf(part, mode="w", format="NETCDF4", engine="netcdf4", encoding=encoding)
+        with undisturbed():
+            on_disk.to_netcdf(part, mode="w", format="NETCDF4", engine="netcdf4", encoding=encoding)
     except (OSError, RuntimeError, ValueError, TypeError) as error:
         raise StoreError(f"cannot write {os.fspath(path)}: {error}") from error
 
@@ -183,9 +183,3 @@ def _check_format(on_disk: xr.Dataset, path: str | os.PathLike[str]) -> None:
             f"cannot open {os.fspath(path)}: its layout is version {version}, this fdspec knows {_VERSION}; "
             "upgrade fdspec"
         )
-
-
-def _damaged(path: str | os.PathLike[str], error: Exception) -> StoreError:
-    return StoreError(
-        f"cannot open {os.fspath(path)}: the file is damaged or incomplete ({error}); write it again"
-    )
