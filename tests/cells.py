@@ -64,8 +64,8 @@ class Cell:
 def draw(number: int) -> Cell:
     """Period 0.02 to 10 s, SR 0.05 to 50, slip force 0 to 5 floor weights, damping 0 to 0.3.
 
-    Brace 1 to 5000 kg and at most 5e4 rad/s, dt 0.001 to 0.05 s, 2 to 4 s of motion, PGA 0.05 to 1 g. More than
-    half of the slip forces lie where they matter, about the force that the locked storey would feel.
+    Brace 1 to 5000 kg and at most 5e4 rad/s, dt 0.001 to 0.05 s, 2 to 4 s of motion, PGA 0.05 to 1 g. More
+    than half of the slip forces lie where they matter, about the force that the locked storey would feel.
     """
     rng = np.random.default_rng([number, 0])
 
