@@ -9,9 +9,10 @@ import numpy as np
 from fdspec.building import Building
 from fdspec.course import Course, FloatArray, Span
 from fdspec.errors import InvalidInput
-from fdspec.kernels.sdof import RESULTS, TRACES
+from fdspec.kernels.sdof import RESULTS
 from fdspec.kernels.single_storey import RADIANS, integrate
 from fdspec.kernels.types import Motion
+from fdspec.kernels.walk import TRACES
 from fdspec.motion import GroundMotion
 
 
@@ -44,7 +45,6 @@ def integrate_single_storey(
             motion.dt,
             span.free_steps,
             radians,
-            True,
             state,
             times,
             phases,

@@ -212,16 +212,18 @@ def _run_columns(
     from fdspec.kernels.single_storey import RADIANS
 
     storeys = _storeys(grid, columns)
-    slip = np.append(grid.slip_force, np.inf)
-    kinetic = np.append(grid.kinetic_slip_force, 0.0)
-    kinetic[np.isinf(slip)] = 0.0
+    slip = np.array(grid.slip_force)
+    kinetic = np.array(grid.kinetic_slip_force)
     out = np.empty((columns.size, slip.size, N_RESULTS))
-    sweep_columns(storeys, slip, kinetic, ground, dt, RADIANS, certify, out)
+    braced = np.empty((columns.size, N_RESULTS))
+    sweep_columns(storeys, slip, kinetic, ground, dt, RADIANS, True, certify, braced, out)
     bare = storeys[columns < grid.period.size].copy()  # the first stiffness ratio's pairs stand for all
     bare[:, 3:] = 0.0
-    free = np.empty((bare.shape[0], 1, N_RESULTS))
-    sweep_columns(bare, slip[-1:], kinetic[-1:], ground, dt, RADIANS, False, free)
-    return out[:, :-1], out[:, -1, 0], free[:, 0, 0]
+    free = np.empty((bare.shape[0], N_RESULTS))
+    none = np.empty(0)
+    nothing = np.empty((bare.shape[0], 0, N_RESULTS))
+    sweep_columns(bare, none, none, ground, dt, RADIANS, False, False, free, nothing)
+    return out, braced[:, 0], free[:, 0]
 
 
 @contextmanager

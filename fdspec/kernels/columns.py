@@ -1,47 +1,223 @@
-"""Many single-storey histories under one ground motion: every slip force for each of many storeys."""
+"""Many single-storey histories under one ground motion: every slip force for each of many storeys.
+
+A storey whose slip force exceeds the largest reaction of the braced frame never slips: one history
+serves all such slip forces, exactly.  The others run in lanes, side by side with whatever others
+take as many steps a sample; neither that nor the order of the grid touches a lane's arithmetic.
+"""
 
 from __future__ import annotations
+
+import math
 
 import numpy as np
 from numba import types
 
-from fdspec.jit import entry, float1d, float2d, float3d, ground1d
+from fdspec.jit import entry, float1d, float2d, float3d, ground1d, inner
 from fdspec.kernels.energy import losses
-from fdspec.kernels.plan import plan
-from fdspec.kernels.sdof import RESULTS, WORK_SHAPE, history
-from fdspec.kernels.types import Motion, Storey
+from fdspec.kernels.packed import (
+    ALERT,
+    HELD,
+    WIDTH,
+    LIMIT,
+    N_ROWS,
+    accept_lanes,
+    count_alerts,
+    loss_lanes,
+    put_lane,
+    slip_lanes,
+    stick_lanes,
+    work_lanes,
+)
+from fdspec.kernels.plan import plan, steps_per_sample
+from fdspec.kernels.quadrature import no_loss, step_loss
+from fdspec.kernels.sdof import RESULTS, finish
+from fdspec.kernels.shelf import N_SHELF, put_plan, take_losses, take_plan
+from fdspec.kernels.types import (
+    KICK,
+    N_STATE,
+    NO_KICK,
+    OK,
+    PEAK_ACCELERATION,
+    PEAK_SHEAR,
+    PHASE,
+    STATUS,
+    STICK,
+    Motion,
+    Storey,
+)
+from fdspec.kernels.walk import WORK_SHAPE, begin, walk
 
 N_RESULTS = len(RESULTS)
 
 
-@entry(types.void(float2d, float1d, float1d, ground1d, types.float64, types.float64, types.boolean, float3d))
-def sweep_columns(storeys, slip_force, kinetic_slip_force, ground, dt, radians, certify, out):
-    """Integrate storeys (m, 6) under each of the slip forces (p,); fill out (m, p, N_RESULTS).
+@inner
+def put_state(p, lane, s):
+    """Store a history's state in its lane."""
+    for row in range(N_STATE):
+        p[row * WIDTH + lane] = s[row]
 
-    A storey's row: floor mass, damping, stiffness, brace mass, damping, stiffness.
-    """
-    work = np.empty(WORK_SHAPE)
+
+@inner
+def take_state(p, lane, s):
+    """Take a history's state from its lane."""
+    for row in range(N_STATE):
+        s[row] = p[row * WIDTH + lane]
+
+
+@inner
+def rest_lane(p, lane):
+    """Make a lane quiet for good: sticking, no slip force to reach, no peak to pass.  Its numbers serve nobody."""
+    for row in range(N_STATE):
+        p[row * WIDTH + lane] = 0.0
+    p[KICK * WIDTH + lane] = NO_KICK
+    p[LIMIT * WIDTH + lane] = math.inf
+    for row in range(PEAK_ACCELERATION, PEAK_SHEAR + 1):
+        p[row * WIDTH + lane] = math.inf
+
+
+@inner
+def run_lanes(p, shelf, states, count, ground, dt, parts, energy, certify, work):
+    """Take ``count`` lanes, set to their start, through the motion; their states end in ``states``."""
     times = np.empty(0)
     phases = np.empty(0, np.int64)
     traces = np.empty((0, 0))
-    rest = Motion(0.0, 0.0, 0.0, 0.0)
-    for i in range(storeys.shape[0]):
-        for j in range(slip_force.size):
-            s = storeys[i]
-            storey = Storey(s[0], s[1], s[2], s[3], s[4], s[5], slip_force[j], kinetic_slip_force[j])
-            scheme = plan(storey, dt, radians)
-            history(
-                scheme,
-                losses(scheme, certify, dt),
-                ground,
-                dt,
-                0,
-                certify,
-                rest,
-                work,
-                times,
-                phases,
-                0.0,
-                traces,
-                out[i, j],
-            )
+    slipping = 0
+    for lane in range(WIDTH):
+        if p[PHASE * WIDTH + lane] != STICK:
+            slipping += 1
+    step = dt / parts
+    for i in range(ground.size - 1):
+        rate = (ground[i + 1] - ground[i]) / dt
+        for j in range(parts):
+            start = ground[i] + rate * (j * step)
+            if slipping < WIDTH:
+                stick_lanes(p, step, start, rate)
+            if slipping > 0:
+                slip_lanes(p, step, start, rate)
+            if energy:
+                work_lanes(p, step, start, rate)
+            if certify:
+                loss_lanes(p, start, rate)
+            if count_alerts(p) == 0:
+                accept_lanes(p, energy, certify)
+                continue
+            for lane in range(count):
+                if p[ALERT * WIDTH + lane] > 0.0:
+                    take_state(p, lane, states[lane])
+            accept_lanes(p, energy, certify)
+            for lane in range(count):
+                if p[ALERT * WIDTH + lane] > 0.0:
+                    s = states[lane]
+                    before = s[PHASE] != STICK
+                    walk(
+                        take_plan(shelf[lane]),
+                        take_losses(shelf[lane]),
+                        s,
+                        0.0,
+                        start,
+                        rate,
+                        certify,
+                        work,
+                        times,
+                        phases,
+                        traces,
+                        0.0,
+                        0,
+                        0.0,
+                    )
+                    put_state(p, lane, s)
+                    after = s[PHASE] != STICK
+                    if s[STATUS] != OK:
+                        rest_lane(p, lane)
+                        after = False
+                    slipping += (1 if after else 0) - (1 if before else 0)
+    for lane in range(count):
+        if states[lane, STATUS] == OK:
+            take_state(p, lane, states[lane])
+
+
+@entry(
+    types.void(
+        float2d,
+        float1d,
+        float1d,
+        ground1d,
+        types.float64,
+        types.float64,
+        types.boolean,
+        types.boolean,
+        float2d,
+        float3d,
+    )
+)
+def sweep_columns(storeys, slip_force, kinetic_slip_force, ground, dt, radians, energy, certify, braced, out):
+    """Integrate storeys (m, 6), braced and under each of the slip forces (p,).
+
+    A storey's row: floor mass, damping, stiffness, brace mass, damping, stiffness.  energy, certify:
+    whether the work of the ground, and the balance of all energies, are wanted.  braced
+    (m, N_RESULTS) and out (m, p, N_RESULTS) are filled, see RESULTS.
+    """
+    columns = storeys.shape[0]
+    forces = slip_force.size
+    parts = np.empty(columns, np.int64)
+    for i in range(columns):
+        s = storeys[i]
+        parts[i] = steps_per_sample(Storey(s[0], s[1], s[2], s[3], s[4], s[5], math.inf, 0.0), dt, radians)
+    order = np.argsort(parts)
+    # Which histories run: first every column without slip, then the slip forces that it can reach.
+    column = np.empty(columns * forces, np.int64)
+    force = np.empty(columns * forces, np.int64)
+    held = np.empty(columns)
+    p = np.empty(N_ROWS * WIDTH)
+    shelf = np.empty((WIDTH, N_SHELF))
+    states = np.empty((WIDTH, N_STATE))
+    work = np.empty(WORK_SHAPE)
+    waiting = columns
+    for sliding in (False, True):
+        if sliding:
+            waiting = 0
+            for k in range(columns):
+                i = order[k]
+                for j in range(forces):
+                    if slip_force[j] > held[i]:
+                        out[i, j] = braced[i]
+                    else:
+                        column[waiting] = i
+                        force[waiting] = j
+                        waiting += 1
+        first = 0
+        while first < waiting:
+            here = parts[column[first] if sliding else order[first]]
+            count = 0
+            while count < WIDTH and first + count < waiting:
+                i = column[first + count] if sliding else order[first + count]
+                if parts[i] != here:
+                    break
+                limit = math.inf
+                kinetic = 0.0
+                if sliding:
+                    limit = slip_force[force[first + count]]
+                    kinetic = kinetic_slip_force[force[first + count]]
+                s = storeys[i]
+                scheme = plan(Storey(s[0], s[1], s[2], s[3], s[4], s[5], limit, kinetic), dt / here, radians)
+                forms = losses(scheme, certify)
+                stride = no_loss()
+                if certify:
+                    stride = step_loss(scheme.floor.g, scheme.floor.w2, scheme.step)
+                put_plan(shelf[count], scheme, forms)
+                put_lane(p, count, scheme, forms, stride, certify)
+                begin(scheme, Motion(0.0, 0.0, 0.0, 0.0), states[count])
+                put_state(p, count, states[count])
+                count += 1
+            for lane in range(count, WIDTH):
+                put_lane(p, lane, scheme, forms, stride, certify)
+                rest_lane(p, lane)
+            run_lanes(p, shelf, states, count, ground, dt, here, energy, certify, work)
+            for lane in range(count):
+                storey = take_plan(shelf[lane]).storey
+                if sliding:
+                    finish(storey, states[lane], certify, out[column[first + lane], force[first + lane]])
+                else:
+                    finish(storey, states[lane], certify, braced[order[first + lane]])
+                    held[order[first + lane]] = p[HELD * WIDTH + lane]
+            first += count

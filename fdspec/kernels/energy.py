@@ -12,24 +12,25 @@ from fdspec.kernels.types import BRACE, FLOOR, STICK
 
 
 class Losses(NamedTuple):
-    """Quadratic forms of the viscous work over the plan's whole pieces."""
+    """Quadratic forms of the viscous work over whole pieces of a plan."""
 
     stick: StepLoss
     floor: StepLoss
     brace: StepLoss
-    stride: StepLoss
 
 
 @inner
-def losses(plan, certify, dt):
+def losses(plan, certify):
     """Work out the viscous forms, or nothing where they are not asked for."""
     if not certify:
-        return Losses(no_loss(), no_loss(), no_loss(), no_loss())
+        return Losses(no_loss(), no_loss(), no_loss())
+    brace = no_loss()
+    if plan.storey.brace_damping > 0.0:
+        brace = step_loss(plan.brace.g, plan.brace.w2, plan.slip_step)
     return Losses(
-        step_loss(plan.stick.g, plan.stick.w2, plan.stick_step),
+        step_loss(plan.stick.g, plan.stick.w2, plan.step),
         step_loss(plan.floor.g, plan.floor.w2, plan.slip_step),
-        step_loss(plan.brace.g, plan.brace.w2, plan.slip_step),
-        step_loss(plan.floor.g, plan.floor.w2, dt),
+        brace,
     )
 
 

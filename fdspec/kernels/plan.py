@@ -32,27 +32,24 @@ class Plan(NamedTuple):
     brace: Branch
     mass: float
     """Floor and brace, kg."""
-    inverse_mass: float
-    """1/m_f + 1/m_d, 1/kg; 0 for a massless brace."""
     hold_u: float
     hold_v: float
     hold_offset: float
     """Reaction while sticking = hold_u u + hold_v v - hold_offset (slip offset)."""
     lift: float
     """Force over mass per slip offset while sticking, 1/s2."""
-    stick_steps: int
-    slip_steps: int
-    stick_step: float
+    step: float
+    """Length of a step, s: a whole piece of stick."""
+    slip_steps: float
+    """Pieces of slip in a step, a whole number."""
     slip_step: float
-    stick_order: int
-    slip_order: int
+    """Length of a piece of slip, s."""
+    stick_order: float
+    slip_order: float
+    """Orders of the series on a piece, whole numbers."""
     stick_map: StepMap
     floor_map: StepMap
     brace_map: StepMap
-    stride_floor: StepMap
-    stride_brace: StepMap
-    stride: bool
-    """Whether a whole record step may be taken at once while slipping."""
 
 
 @inner
@@ -75,54 +72,58 @@ def massless_branch(damping, stiffness):
 
 
 @inner
-def steps_of(rate, dt, radians):
-    """Number of equal parts of dt, each at most ``radians`` long."""
-    return max(1, int(math.ceil(rate * dt / radians)))
+def brace_branch(storey):
+    """The brace alone."""
+    if storey.brace_mass > 0.0:
+        return branch(storey.brace_mass, storey.brace_damping, storey.brace_stiffness)
+    return massless_branch(storey.brace_damping, storey.brace_stiffness)
 
 
 @inner
-def plan(storey, dt, radians):
-    """Work out the constants; ``radians`` is the longest phase (rad) of a step searched for roots."""
+def parts_of(rate, time, radians):
+    """Number of equal parts of a time, each of at most ``radians``."""
+    return max(1, int(math.ceil(rate * time / radians)))
+
+
+@inner
+def steps_per_sample(storey, dt, radians):
+    """Steps that a record step of dt is taken in: at most ``radians`` of floor and brace as one, and of the floor."""
+    stick = branch(
+        storey.floor_mass + storey.brace_mass,
+        storey.floor_damping + storey.brace_damping,
+        storey.floor_stiffness + storey.brace_stiffness,
+    )
+    floor = branch(storey.floor_mass, storey.floor_damping, storey.floor_stiffness)
+    return parts_of(max(stick.rate, floor.rate), dt, radians)
+
+
+@inner
+def plan(storey, step, radians):
+    """Work out the constants; ``radians`` is the longest phase (rad) of a piece searched for roots."""
     m, c, k = storey.floor_mass, storey.floor_damping, storey.floor_stiffness
     md, cd, kd = storey.brace_mass, storey.brace_damping, storey.brace_stiffness
     mass = m + md
     stick = branch(mass, c + cd, k + kd)
     floor = branch(m, c, k)
-    if md > 0.0:
-        brace = branch(md, cd, kd)
-        inverse_mass = 1.0 / m + 1.0 / md
-    else:
-        brace = massless_branch(cd, kd)
-        inverse_mass = 0.0
-    stick_steps = steps_of(stick.rate, dt, radians)
-    slip_steps = steps_of(max(floor.rate, brace.rate), dt, radians)
-    stick_step = dt / stick_steps
-    slip_step = dt / slip_steps
-    stride = md > 0.0 and kd > 0.0 and slip_steps > 1 and floor.rate * dt <= 2.0 * radians
-    brace_map = step_map(brace.g, brace.w2, slip_step)
-    stride_floor = step_map(floor.g, floor.w2, dt)
-    stride_brace = step_map(brace.g, brace.w2, dt) if stride else brace_map
+    brace = brace_branch(storey)
+    slip_steps = parts_of(max(floor.rate, brace.rate), step, radians)
+    slip_step = step / slip_steps
     return Plan(
         storey,
         stick,
         floor,
         brace,
         mass,
-        inverse_mass,
         (kd * m - md * k) / mass,
         (cd * m - md * c) / mass,
         kd * m / mass,
         kd / mass,
-        stick_steps,
-        slip_steps,
-        stick_step,
+        step,
+        float(slip_steps),
         slip_step,
-        series_order(stick.rate * stick_step),
-        series_order(max(floor.rate, brace.rate) * slip_step),
-        step_map(stick.g, stick.w2, stick_step),
+        float(series_order(stick.rate * step)),
+        float(series_order(max(floor.rate, brace.rate) * slip_step)),
+        step_map(stick.g, stick.w2, step),
         step_map(floor.g, floor.w2, slip_step),
-        brace_map,
-        stride_floor,
-        stride_brace,
-        stride,
+        step_map(brace.g, brace.w2, slip_step),
     )

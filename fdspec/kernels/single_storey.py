@@ -1,4 +1,4 @@
-"""Entry points of the single-storey engine."""
+"""Entry point of the single-storey engine for one history with its course in time."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ from numba import types
 
 from fdspec.jit import entry, float1d, float2d, ground1d, int1d, record_of
 from fdspec.kernels.energy import losses
-from fdspec.kernels.plan import plan
-from fdspec.kernels.sdof import WORK_SHAPE, history
-from fdspec.kernels.types import Motion, Storey
+from fdspec.kernels.plan import plan, steps_per_sample
+from fdspec.kernels.sdof import history
+from fdspec.kernels.types import N_STATE, Motion, Storey
+from fdspec.kernels.walk import WORK_SHAPE
 
 RADIANS = 1.0
 """Longest phase of a piece that is searched for roots; no result depends on it."""
@@ -22,7 +23,6 @@ RADIANS = 1.0
         types.float64,
         types.int64,
         types.float64,
-        types.boolean,
         record_of(Motion),
         float1d,
         int1d,
@@ -31,22 +31,13 @@ RADIANS = 1.0
         float1d,
     )
 )
-def integrate(storey, ground, dt, free_steps, radians, certify, start, times, phases, dt_out, traces, result):
+def integrate(storey, ground, dt, free_steps, radians, start, times, phases, dt_out, traces, result):
     """Integrate one history; arguments as in :func:`fdspec.kernels.sdof.history`."""
+    parts = steps_per_sample(storey, dt, radians)
+    scheme = plan(storey, dt / parts, radians)
+    forms = losses(scheme, True)
+    s = np.empty(N_STATE)
     work = np.empty(WORK_SHAPE)
-    scheme = plan(storey, dt, radians)
     history(
-        scheme,
-        losses(scheme, certify, dt),
-        ground,
-        dt,
-        free_steps,
-        certify,
-        start,
-        work,
-        times,
-        phases,
-        dt_out,
-        traces,
-        result,
+        scheme, forms, ground, dt, parts, free_steps, start, s, work, times, phases, dt_out, traces, result
     )

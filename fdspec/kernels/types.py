@@ -73,3 +73,33 @@ FLOOR: Final = 0
 BRACE: Final = 1
 SEARCH: Final = 2
 """Rows of the work array: series of the floor, of the brace, and of the quantity searched."""
+
+U: Final = 0
+V: Final = 1
+D: Final = 2
+E: Final = 3
+OFFSET: Final = 4
+PHASE: Final = 5
+KICK: Final = 6
+TOUCHING: Final = 7
+PEAK_ACCELERATION: Final = 8
+PEAK_DISPLACEMENT: Final = 9
+PEAK_VELOCITY: Final = 10
+PEAK_SHEAR: Final = 11
+INPUT: Final = 12
+VISCOUS: Final = 13
+RELEASE: Final = 14
+ANCHOR: Final = 15
+TRAVEL: Final = 16
+TRANSITIONS: Final = 17
+EVENTS: Final = 18
+STATUS: Final = 19
+STORED: Final = 20
+N_STATE: Final = 21
+"""Places in the state of a history: floor and brace; slip offset of the stick phase; phase; how the next
+piece begins (sliding acceleration of a new slip, side at which the reaction stands at the slip force);
+peaks; work of the ground, of the dampers, of releases; u - d where the slip began, slip travel before it;
+counts; status; energy at the start."""
+
+NO_KICK: Final = -1.0
+"""KICK where no slip begins with the next piece."""

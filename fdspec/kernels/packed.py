@@ -1,0 +1,377 @@
+"""Many histories side by side: the same arithmetic on neighbouring numbers, one lane a history.
+
+Grid points are independent, so WIDTH of them advance together through the steps in which nothing
+happens to them, in one loop without a branch, which the compiler turns into vector instructions.
+State and constants stand in one packed array, row r of lane l at r * WIDTH + l: with several arrays
+the compiler could not prove that a store leaves the other loads alone.  Bounds decide lane by lane
+whether a step is quiet; a lane that is not walks this step by itself.
+
+While sticking a step is one whole piece, and the bounds are those of the walk.  While slipping the
+brace may ring many radians in a step: it swings about its quasi-static motion with an amplitude that
+does not grow, so the slowest sliding is at least the floor's slowest less that swing, and a floor
+that slides faster cannot be caught.
+"""
+
+from __future__ import annotations
+
+import math
+
+from fdspec.jit import inlined, inner
+from fdspec.kernels.oscillator import step_map
+from fdspec.kernels.types import (
+    INPUT,
+    KICK,
+    N_STATE,
+    OFFSET,
+    PEAK_ACCELERATION,
+    PEAK_DISPLACEMENT,
+    PEAK_SHEAR,
+    PEAK_VELOCITY,
+    PHASE,
+    TOUCHING,
+    VISCOUS,
+    D,
+    E,
+    U,
+    V,
+)
+
+WIDTH = 16
+"""Histories side by side: two registers of AVX-512, four of AVX2, so that one hides another's latency."""
+
+THIRD = 1.0 / 3.0
+TAIL = 1.0 / 288.0
+"""Weight of the bound on the fourth derivative; see fdspec.kernels.roots."""
+
+# Rows behind the state: where a step would lead, and whether a lane must walk it.
+_AT = N_STATE
+END_U, END_V, END_D, END_E, END_A, END_X, END_W, END_S, END_INPUT, END_VISCOUS, ALERT, HELD = range(
+    _AT, _AT + 12
+)
+_AT += 12
+# Constants of the storey.
+LIMIT, PUSH_FLOOR, PUSH_BRACE, LIFT, MASS, FLOOR_MASS, BRACE_MASS, LIGHT, MUST_WALK = range(_AT, _AT + 9)
+_AT += 9
+# Floor and brace as one: rates, weights in the bound on free motion, and that bound's weights.
+S_G, S_W2, S_DRIFT, S_SLOW, S_TAIL_U, S_TAIL_V, S_TAIL_Q = range(_AT, _AT + 7)
+_AT += 7
+HOLD_U, HOLD_V, HOLD_O, HOLD_TAIL = range(_AT, _AT + 4)
+_AT += 4
+# The floor alone, and the brace alone.
+F_G, F_W2, F_DRIFT, F_SLOW, F_TAIL_U, F_TAIL_V, F_TAIL_Q = range(_AT, _AT + 7)
+_AT += 7
+B_G, B_W2, B_DRIFT, B_SLOW, B_OMEGA, B_GROUND = range(_AT, _AT + 6)
+_AT += 6
+# Step maps, twelve rows each, and quadratic forms of the viscous work, ten rows each.
+S_MAP, F_MAP, B_MAP, S_LOSS, F_LOSS = _AT, _AT + 12, _AT + 24, _AT + 36, _AT + 46
+_AT += 56
+S_DAMP, F_DAMP = _AT, _AT + 1
+N_ROWS = _AT + 2
+
+
+@inlined
+def at(p, row, lane):
+    """The number of a lane in a row."""
+    return p[row * WIDTH + lane]
+
+
+@inlined
+def carry(p, row, lane, x, v, p0, rate):
+    """A linear form (four rows) in displacement, velocity, force over mass and minus its rate."""
+    return (
+        at(p, row, lane) * x
+        + at(p, row + 1, lane) * v
+        + (at(p, row + 2, lane) * p0 - at(p, row + 3, lane) * rate)
+    )
+
+
+@inlined
+def form(p, row, lane, x, v, p0, p1):
+    """A quadratic form (ten rows) in displacement, velocity, force over mass and its rate."""
+    return (
+        x
+        * (
+            at(p, row, lane) * x
+            + at(p, row + 1, lane) * v
+            + (at(p, row + 2, lane) * p0 + at(p, row + 3, lane) * p1)
+        )
+        + v * (at(p, row + 4, lane) * v + at(p, row + 5, lane) * p0 + at(p, row + 6, lane) * p1)
+        + p0 * (at(p, row + 7, lane) * p0 + at(p, row + 8, lane) * p1)
+        + at(p, row + 9, lane) * p1 * p1
+    )
+
+
+@inner
+def put(p, row, lane, number):
+    """Store a number of a lane in a row."""
+    p[row * WIDTH + lane] = number
+
+
+@inner
+def put_map(p, row, lane, to):
+    """Store a step map."""
+    for k in range(12):
+        put(p, row + k, lane, to[k])
+
+
+@inner
+def put_loss(p, row, lane, of):
+    """Store a quadratic form, the terms off its diagonal doubled."""
+    for k in range(10):
+        put(p, row + k, lane, of[k] if k == 0 or k == 4 or k == 7 or k == 9 else 2.0 * of[k])
+
+
+@inner
+def put_branch(p, row, lane, branch, h):
+    """Store an oscillator that carries the floor: seven rows."""
+    theta = branch.rate * h
+    fourth_v = TAIL * theta**4
+    fourth_u = TAIL * theta**3 * h
+    put(p, row, lane, branch.g)
+    put(p, row + 1, lane, branch.w2)
+    put(p, row + 2, lane, branch.drift)
+    put(p, row + 3, lane, branch.slowness)
+    put(p, row + 4, lane, fourth_u)
+    put(p, row + 5, lane, fourth_v)
+    put(p, row + 6, lane, branch.g * fourth_v + branch.w2 * fourth_u)
+
+
+@inner
+def put_lane(p, lane, plan, losses, stride_loss, certify):
+    """Store the constants of a plan."""
+    storey = plan.storey
+    h = plan.step
+    sliding = storey.kinetic_slip_force if storey.slip_force < math.inf else 0.0
+    massive = storey.brace_mass > 0.0
+    put(p, LIMIT, lane, storey.slip_force)
+    put(p, PUSH_FLOOR, lane, sliding / storey.floor_mass)
+    put(p, PUSH_BRACE, lane, sliding / storey.brace_mass if massive else 0.0)
+    put(p, LIFT, lane, plan.lift)
+    put(p, MASS, lane, plan.mass)
+    put(p, FLOOR_MASS, lane, storey.floor_mass)
+    put(p, BRACE_MASS, lane, storey.brace_mass)
+    put(p, LIGHT, lane, 1.0 / plan.mass)
+    # A loose brace has no quasi-static motion; a damped one's losses are not tallied a step at a time.
+    loose = massive and storey.brace_stiffness == 0.0
+    put(p, MUST_WALK, lane, 1.0 if loose or (certify and storey.brace_damping > 0.0) else 0.0)
+    put_branch(p, S_G, lane, plan.stick, h)
+    put_branch(p, F_G, lane, plan.floor, h)
+    put(p, HOLD_U, lane, plan.hold_u)
+    put(p, HOLD_V, lane, plan.hold_v)
+    put(p, HOLD_O, lane, plan.hold_offset)
+    put(
+        p,
+        HOLD_TAIL,
+        lane,
+        abs(plan.hold_u) * at(p, S_TAIL_U, lane) + abs(plan.hold_v) * at(p, S_TAIL_V, lane),
+    )
+    brace = plan.brace
+    put(p, B_G, lane, brace.g)
+    put(p, B_W2, lane, brace.w2)
+    put(p, B_DRIFT, lane, brace.drift)
+    put(p, B_SLOW, lane, brace.slowness if massive else 0.0)
+    put(p, B_OMEGA, lane, math.sqrt(brace.w2) if massive else 0.0)
+    put(p, B_GROUND, lane, 1.0 if massive else 0.0)
+    put_map(p, S_MAP, lane, plan.stick_map)
+    put_map(p, F_MAP, lane, step_map(plan.floor.g, plan.floor.w2, h))
+    put_map(p, B_MAP, lane, step_map(brace.g, brace.w2, h))
+    put_loss(p, S_LOSS, lane, losses.stick)
+    put_loss(p, F_LOSS, lane, stride_loss)
+    put(p, S_DAMP, lane, storey.floor_damping + storey.brace_damping)
+    put(p, F_DAMP, lane, storey.floor_damping)
+    put(p, HELD, lane, 0.0)
+
+
+@inner
+def stick_lanes(p, h, ground, rate):
+    """Advance every lane by a step as if it stuck; ALERT where it may slip or a peak may pass.
+
+    HELD keeps the largest reaction for which the bounds leave room: above it no slip force is reached.
+    """
+    third = h * THIRD
+    ground_end = ground + rate * h
+    steep = abs(rate)
+    for lane in range(WIDTH):
+        u = at(p, U, lane)
+        v = at(p, V, lane)
+        offset = at(p, OFFSET, lane)
+        g = at(p, S_G, lane)
+        w2 = at(p, S_W2, lane)
+        base = at(p, LIFT, lane) * offset
+        p0 = base - ground
+        u1 = carry(p, S_MAP, lane, u, v, p0, rate)
+        v1 = carry(p, S_MAP + 4, lane, u, v, p0, rate)
+        q0 = base - g * v - w2 * u
+        q1 = base - g * v1 - w2 * u1
+        a0 = q0 - ground
+        a1 = q1 - ground_end
+        swing = abs(v) + steep * at(p, S_DRIFT, lane) + abs(a0) * at(p, S_SLOW, lane)
+
+        hold_u = at(p, HOLD_U, lane)
+        hold_v = at(p, HOLD_V, lane)
+        locked = at(p, HOLD_O, lane) * offset
+        r0 = hold_u * u + hold_v * v - locked
+        r1 = hold_u * u1 + hold_v * v1 - locked
+        rise0 = third * (hold_u * v + hold_v * a0)
+        rise1 = third * (hold_u * v1 + hold_v * a1)
+        held = max(abs(r0 + rise0), abs(r1 - rise1)) + swing * at(p, HOLD_TAIL, lane)
+        held = max(max(abs(r0), abs(r1)), held)
+
+        top_a = max(at(p, PEAK_ACCELERATION, lane), abs(q1))
+        top_s = max(at(p, PEAK_SHEAR, lane), at(p, MASS, lane) * abs(q1))
+        top_u = max(at(p, PEAK_DISPLACEMENT, lane), abs(u1))
+        top_v = max(at(p, PEAK_VELOCITY, lane), abs(v1))
+        crest_u = max(abs(u + third * v), abs(u1 - third * v1)) + swing * at(p, S_TAIL_U, lane)
+        crest_v = max(abs(v + third * a0), abs(v1 - third * a1)) + swing * at(p, S_TAIL_V, lane)
+        crest_q = max(abs(q0 - third * (g * a0 + w2 * v)), abs(q1 + third * (g * a1 + w2 * v1)))
+        crest_q += swing * at(p, S_TAIL_Q, lane)
+        alert = abs(at(p, TOUCHING, lane))
+        alert += 1.0 if held >= at(p, LIMIT, lane) else 0.0
+        alert += 1.0 if crest_q > min(top_a, top_s * at(p, LIGHT, lane)) else 0.0
+        alert += 1.0 if crest_u > top_u else 0.0
+        alert += 1.0 if crest_v > top_v else 0.0
+        p[END_U * WIDTH + lane] = u1
+        p[END_V * WIDTH + lane] = v1
+        p[END_D * WIDTH + lane] = u1 - offset
+        p[END_E * WIDTH + lane] = v1
+        p[END_A * WIDTH + lane] = top_a
+        p[END_X * WIDTH + lane] = top_u
+        p[END_W * WIDTH + lane] = top_v
+        p[END_S * WIDTH + lane] = top_s
+        p[ALERT * WIDTH + lane] = alert
+        p[HELD * WIDTH + lane] = max(at(p, HELD, lane), held)
+
+
+@inner
+def slip_lanes(p, h, ground, rate):
+    """Advance every slipping lane by a step; ALERT where it may stop or a peak may pass."""
+    third = h * THIRD
+    ground_end = ground + rate * h
+    steep = abs(rate)
+    shake = max(abs(ground), abs(ground_end))
+    for lane in range(WIDTH):
+        sign = at(p, PHASE, lane)
+        slips = sign != 0.0
+        u = at(p, U, lane)
+        v = at(p, V, lane)
+        d = at(p, D, lane)
+        e = at(p, E, lane)
+        g = at(p, F_G, lane)
+        w2 = at(p, F_W2, lane)
+        solid = at(p, B_GROUND, lane)
+        base = -sign * at(p, PUSH_FLOOR, lane)
+        p0 = base - ground
+        b0 = sign * at(p, PUSH_BRACE, lane) - solid * ground
+        b1 = solid * rate
+        u1 = carry(p, F_MAP, lane, u, v, p0, rate)
+        v1 = carry(p, F_MAP + 4, lane, u, v, p0, rate)
+        d1 = carry(p, B_MAP, lane, d, e, b0, b1)
+        e1 = carry(p, B_MAP + 4, lane, d, e, b0, b1)
+        q0 = base - g * v - w2 * u
+        q1 = base - g * v1 - w2 * u1
+        a0 = q0 - ground
+        a1 = q1 - ground_end
+        swing = abs(v) + steep * at(p, F_DRIFT, lane) + abs(a0) * at(p, F_SLOW, lane)
+
+        drift = -b1 * at(p, B_DRIFT, lane)
+        ring_v = e - drift
+        ring_a = (b0 - at(p, B_G, lane) * e - at(p, B_W2, lane) * d) * at(p, B_SLOW, lane)
+        ring = math.sqrt(ring_v * ring_v + ring_a * ring_a)
+        tail_v = swing * at(p, F_TAIL_V, lane)
+        inside = min(sign * (v + third * a0), sign * (v1 - third * a1)) - tail_v
+        slowest = min(min(sign * v, sign * v1), inside) - (sign * drift + ring)
+
+        shear = at(p, PEAK_SHEAR, lane)
+        top_a = max(at(p, PEAK_ACCELERATION, lane), abs(q1))
+        top_u = max(at(p, PEAK_DISPLACEMENT, lane), abs(u1))
+        top_v = max(at(p, PEAK_VELOCITY, lane), abs(v1))
+        crest_u = max(abs(u + third * v), abs(u1 - third * v1)) + swing * at(p, F_TAIL_U, lane)
+        crest_v = max(abs(v + third * a0), abs(v1 - third * a1)) + tail_v
+        crest_q = max(abs(q0 - third * (g * a0 + w2 * v)), abs(q1 + third * (g * a1 + w2 * v1)))
+        crest_q += swing * at(p, F_TAIL_Q, lane)
+        # Base shear is the inertia of both masses; the brace itself accelerates at most by ring times omega.
+        crest_s = at(p, FLOOR_MASS, lane) * max(max(abs(q0), abs(q1)), crest_q)
+        crest_s += at(p, BRACE_MASS, lane) * (ring * at(p, B_OMEGA, lane) + shake)
+        alert = at(p, MUST_WALK, lane)
+        alert += 1.0 if at(p, KICK, lane) >= 0.0 else 0.0
+        alert += 1.0 if slowest <= 0.0 else 0.0
+        alert += 1.0 if crest_q > top_a else 0.0
+        alert += 1.0 if crest_u > top_u else 0.0
+        alert += 1.0 if crest_v > top_v else 0.0
+        alert += 1.0 if crest_s > shear else 0.0
+        p[END_U * WIDTH + lane] = u1 if slips else at(p, END_U, lane)
+        p[END_V * WIDTH + lane] = v1 if slips else at(p, END_V, lane)
+        p[END_D * WIDTH + lane] = d1 if slips else at(p, END_D, lane)
+        p[END_E * WIDTH + lane] = e1 if slips else at(p, END_E, lane)
+        p[END_A * WIDTH + lane] = top_a if slips else at(p, END_A, lane)
+        p[END_X * WIDTH + lane] = top_u if slips else at(p, END_X, lane)
+        p[END_W * WIDTH + lane] = top_v if slips else at(p, END_W, lane)
+        p[END_S * WIDTH + lane] = shear if slips else at(p, END_S, lane)
+        p[ALERT * WIDTH + lane] = alert if slips else at(p, ALERT, lane)
+
+
+@inner
+def work_lanes(p, h, ground, rate):
+    """Work of the ground up to the end of a quiet step."""
+    for lane in range(WIDTH):
+        sign = at(p, PHASE, lane)
+        u = at(p, U, lane)
+        v = at(p, V, lane)
+        d = at(p, D, lane)
+        u1 = at(p, END_U, lane)
+        d1 = at(p, END_D, lane)
+        solid = at(p, B_GROUND, lane)
+        p0 = at(p, LIFT, lane) * at(p, OFFSET, lane) - ground
+        f0 = -sign * at(p, PUSH_FLOOR, lane) - ground
+        b0 = sign * at(p, PUSH_BRACE, lane) - solid * ground
+        both_area = carry(p, S_MAP + 8, lane, u, v, p0, rate)
+        floor_area = carry(p, F_MAP + 8, lane, u, v, f0, rate)
+        brace_area = carry(p, B_MAP + 8, lane, d, at(p, E, lane), b0, solid * rate)
+        moved = ground * (u1 - u)
+        one = at(p, MASS, lane) * (moved + rate * (h * u1 - both_area))
+        two = at(p, FLOOR_MASS, lane) * (moved + rate * (h * u1 - floor_area))
+        two += at(p, BRACE_MASS, lane) * (ground * (d1 - d) + rate * (h * d1 - brace_area))
+        p[END_INPUT * WIDTH + lane] = at(p, INPUT, lane) - (two if sign != 0.0 else one)
+
+
+@inner
+def loss_lanes(p, ground, rate):
+    """Viscous work up to the end of a quiet step."""
+    for lane in range(WIDTH):
+        sign = at(p, PHASE, lane)
+        u = at(p, U, lane)
+        v = at(p, V, lane)
+        p0 = at(p, LIFT, lane) * at(p, OFFSET, lane) - ground
+        f0 = -sign * at(p, PUSH_FLOOR, lane) - ground
+        one = at(p, S_DAMP, lane) * form(p, S_LOSS, lane, u, v, p0, -rate)
+        two = at(p, F_DAMP, lane) * form(p, F_LOSS, lane, u, v, f0, -rate)
+        p[END_VISCOUS * WIDTH + lane] = at(p, VISCOUS, lane) + (two if sign != 0.0 else one)
+
+
+@inner
+def count_alerts(p):
+    """Number of lanes that must walk this step by themselves."""
+    alerts = 0.0
+    for lane in range(WIDTH):
+        alerts = max(alerts, at(p, ALERT, lane))
+    return alerts
+
+
+@inner
+def accept_lanes(p, energy, certify):
+    """Move every lane to the end of the step; those that walk are set again from their own state."""
+    for lane in range(WIDTH):
+        p[U * WIDTH + lane] = at(p, END_U, lane)
+        p[V * WIDTH + lane] = at(p, END_V, lane)
+        p[D * WIDTH + lane] = at(p, END_D, lane)
+        p[E * WIDTH + lane] = at(p, END_E, lane)
+        p[PEAK_ACCELERATION * WIDTH + lane] = at(p, END_A, lane)
+        p[PEAK_DISPLACEMENT * WIDTH + lane] = at(p, END_X, lane)
+        p[PEAK_VELOCITY * WIDTH + lane] = at(p, END_W, lane)
+        p[PEAK_SHEAR * WIDTH + lane] = at(p, END_S, lane)
+    if energy:
+        for lane in range(WIDTH):
+            p[INPUT * WIDTH + lane] = at(p, END_INPUT, lane)
+    if certify:
+        for lane in range(WIDTH):
+            p[VISCOUS * WIDTH + lane] = at(p, END_VISCOUS, lane)

@@ -1,0 +1,403 @@
+"""One step of one history, piece by piece, from change of phase to change of phase.
+
+A step is a record step or an equal part of one, at most a radian of the sticking storey.  A piece of
+slip is at most a radian of the brace.  A whole piece is advanced by its closed form and let go when
+bounds show that nothing happens on it.  Any other piece is expanded in its Taylor series and
+searched; it ends where the phase changes.
+"""
+
+from __future__ import annotations
+
+import math
+
+from fdspec.jit import inlined, inner
+from fdspec.kernels.bounds import forcing
+from fdspec.kernels.energy import input_work, series_work, stored_energy
+from fdspec.kernels.friction import GOES_ON, phase_after_stop, reaction, sliding_kick
+from fdspec.kernels.oscillator import TERMS, advance, area, expand, square_integral
+from fdspec.kernels.roots import value_slope
+from fdspec.kernels.slip import base_shear, search_slip, slip_is_quiet, slip_peaks
+from fdspec.kernels.stick import held_force, search_stick, stick_is_quiet, stick_peaks
+from fdspec.kernels.types import (
+    ANCHOR,
+    BRACE,
+    EVENTS,
+    FLOOR,
+    INPUT,
+    KICK,
+    NO_KICK,
+    NON_FINITE_STATE,
+    OFFSET,
+    PEAK_ACCELERATION,
+    PEAK_DISPLACEMENT,
+    PEAK_SHEAR,
+    PEAK_VELOCITY,
+    PHASE,
+    RELEASE,
+    STATUS,
+    STICK,
+    STORED,
+    TOUCHING,
+    TRANSITION_CAP,
+    TRANSITION_CAP_REACHED,
+    TRANSITIONS,
+    TRAVEL,
+    VISCOUS,
+    D,
+    E,
+    Energy,
+    Motion,
+    Peaks,
+    U,
+    V,
+)
+
+WORK_SHAPE = (3, TERMS)
+
+TRACES = (
+    "displacement",
+    "velocity",
+    "acceleration",
+    "brace_displacement",
+    "brace_velocity",
+    "friction_force",
+    "phase",
+    "slip_travel",
+    "input_energy",
+    "viscous_energy",
+    "friction_energy",
+)
+"""What is written at each output instant, in the order of the columns."""
+
+
+@inlined
+def floor_acceleration(plan, phase, offset, motion):
+    """Absolute acceleration of the floor, m/s2."""
+    if phase == STICK:
+        b = plan.stick
+        return plan.lift * offset - b.g * motion.v - b.w2 * motion.u
+    b = plan.floor
+    push = phase * plan.storey.kinetic_slip_force / plan.storey.floor_mass
+    return -push - b.g * motion.v - b.w2 * motion.u
+
+
+@inlined
+def with_instant(plan, phase, offset, motion, peaks):
+    """Peaks with those of one instant: the far side of each jump in acceleration."""
+    return Peaks(
+        max(peaks.acceleration, abs(floor_acceleration(plan, phase, offset, motion))),
+        max(peaks.displacement, abs(motion.u)),
+        max(peaks.velocity, abs(motion.v)),
+        max(peaks.shear, abs(base_shear(plan.storey, motion))),
+    )
+
+
+@inner
+def begin_slip(storey, sign, motion, held):
+    """Motion and sliding acceleration just after the damper gives way in this direction.
+
+    A massless brace follows at once: without damping it springs to where the kinetic slip force
+    holds it, with damping its velocity does.
+    """
+    if storey.brace_mass > 0.0:
+        return Motion(motion.u, motion.v, motion.d, motion.v), sliding_kick(storey, held)
+    if storey.brace_damping > 0.0:
+        lag = (abs(held) - storey.kinetic_slip_force) / storey.brace_damping
+        return Motion(motion.u, motion.v, motion.d, motion.v - sign * lag), NO_KICK
+    return Motion(motion.u, motion.v, sign * storey.kinetic_slip_force / storey.brace_stiffness, 0.0), NO_KICK
+
+
+@inner
+def spring_release(storey, before, after):
+    """Energy (J) lost where a massless brace springs from one displacement to another."""
+    return 0.5 * storey.brace_stiffness * (before - after) * (before - after)
+
+
+@inner
+def begin(plan, start, s):
+    """Set the state ``s`` (N_STATE,) to the instant t = 0."""
+    storey = plan.storey
+    s[:] = 0.0
+    motion = start
+    kick = NO_KICK
+    phase = STICK
+    held = reaction(storey, motion.u, motion.v, motion.d)
+    s[STORED] = stored_energy(storey, motion)
+    s[OFFSET] = motion.u - motion.d
+    s[ANCHOR] = motion.u - motion.d
+    if storey.slip_force == 0.0:
+        phase = 1
+    elif motion.v != motion.e and storey.brace_mass > 0.0:
+        phase = 1 if motion.v > motion.e else -1
+    elif abs(held) > storey.slip_force:
+        phase = 1 if held > 0.0 else -1
+        motion, kick = begin_slip(storey, phase, motion, held)
+        s[RELEASE] = spring_release(storey, start.d, motion.d)
+        s[TRANSITIONS] = 1.0
+    s[U] = motion.u
+    s[V] = motion.v
+    s[D] = motion.d
+    s[E] = motion.e
+    s[PHASE] = phase
+    s[KICK] = kick
+    peaks = with_instant(plan, phase, s[OFFSET], motion, Peaks(0.0, 0.0, 0.0, 0.0))
+    s[PEAK_ACCELERATION] = peaks.acceleration
+    s[PEAK_DISPLACEMENT] = peaks.displacement
+    s[PEAK_VELOCITY] = peaks.velocity
+    s[PEAK_SHEAR] = peaks.shear
+
+
+@inner
+def shorten(c, n, x):
+    """Rescale the series of a piece to its first part x."""
+    power = 1.0
+    for k in range(1, n + 1):
+        power *= x
+        c[k] *= power
+
+
+@inner
+def end_of_series(c, n, h):
+    """Displacement and velocity at a piece's end."""
+    x, rise = value_slope(c, 0, n, 1.0)
+    return x, rise / h
+
+
+@inner
+def whole_piece_work(plan, losses, phase, motion, end, force, acceleration, rate, h, certify):
+    """Input and viscous work on a whole piece."""
+    storey = plan.storey
+    lost = 0.0
+    if phase == STICK:
+        swept = area(plan.stick_map, motion.u, motion.v, force.p0, force.p1)
+        if certify:
+            lost = (storey.floor_damping + storey.brace_damping) * square_integral(
+                losses.stick, motion.u, motion.v, force.p0, force.p1
+            )
+        return input_work(plan, phase, motion, end, swept, 0.0, acceleration, rate, h), lost
+    swept = area(plan.floor_map, motion.u, motion.v, force.p0, force.p1)
+    swung = area(plan.brace_map, motion.d, motion.e, force.b0, force.b1)
+    if certify:
+        lost = storey.floor_damping * square_integral(losses.floor, motion.u, motion.v, force.p0, force.p1)
+        if storey.brace_damping > 0.0:
+            lost += storey.brace_damping * square_integral(
+                losses.brace, motion.d, motion.e, force.b0, force.b1
+            )
+    return input_work(plan, phase, motion, end, swept, swung, acceleration, rate, h), lost
+
+
+@inner
+def write_trace(plan, work, n, phase, offset, anchor, travel, so_far, acceleration, rate, h, x, row):
+    """Fill one row (see TRACES) at the fraction x of an expanded piece of length h."""
+    storey = plan.storey
+    u, rise = value_slope(work[FLOOR], 0, n, x)
+    v = rise / h
+    done, lost = series_work(plan, phase, work, n, acceleration, rate, h, x, True)
+    if phase == STICK:
+        d = u - offset
+        e = v
+        friction = held_force(plan, u, v, offset)
+    else:
+        d, rise = value_slope(work[BRACE], 0, n, x)
+        e = rise / h
+        friction = phase * storey.kinetic_slip_force
+        travel += phase * (u - d - anchor)
+    row[0] = u
+    row[1] = v
+    row[2] = floor_acceleration(plan, phase, offset, Motion(u, v, d, e))
+    row[3] = d
+    row[4] = e
+    row[5] = friction
+    row[6] = phase
+    row[7] = travel
+    row[8] = so_far.input + done
+    row[9] = so_far.viscous + lost
+    row[10] = so_far.release + (storey.kinetic_slip_force * travel if travel > 0.0 else 0.0)
+
+
+@inner
+def walk(plan, losses, s, at, a0, rate, certify, work, times, phases, traces, dt_out, written, reach):
+    """Take the state ``s`` over one step; return the number of output rows written so far.
+
+    at: time of the step's start, s; a0, rate: ground acceleration there (m/s2) and its rate (m/s3).
+    times, phases: changes of phase, as far as they have room.  traces (m, len(TRACES)): row k is
+    written at k dt_out once that is not later than ``reach`` past what has been walked; with m = 0
+    nothing is written, else every piece is expanded.
+    """
+    storey = plan.storey
+    limit = storey.slip_force
+    free = limit == 0.0
+    tracing = traces.shape[0] > 0
+    loose = storey.brace_mass == 0.0 and storey.brace_damping == 0.0
+    floor = work[FLOOR]
+    brace = work[BRACE]
+
+    motion = Motion(s[U], s[V], s[D], s[E])
+    offset = s[OFFSET]
+    phase = int(s[PHASE])
+    kick = s[KICK]
+    touching = int(s[TOUCHING])
+    peaks = Peaks(s[PEAK_ACCELERATION], s[PEAK_DISPLACEMENT], s[PEAK_VELOCITY], s[PEAK_SHEAR])
+    tau = 0.0
+    part = 0  # index of the piece within the step, on the grid of the phase
+    whole = True  # whether the piece begins on that grid
+    while tau < plan.step:
+        pieces = 1 if phase == STICK else int(plan.slip_steps)
+        order = int(plan.stick_order) if phase == STICK else int(plan.slip_order)
+        target = plan.step if part + 1 == pieces else (part + 1) * plan.slip_step
+        h = target - tau
+        acceleration = a0 + rate * tau
+        force = forcing(plan, phase, offset, acceleration, rate)
+
+        if whole and not tracing and touching == STICK and kick < 0.0:
+            if phase == STICK:
+                h = plan.step
+                u, v = advance(plan.stick_map, motion.u, motion.v, force.p0, force.p1)
+                end = Motion(u, v, u - offset, v)
+                quiet = stick_is_quiet(plan, motion, end, force, offset, h)
+            else:
+                h = plan.slip_step
+                u, v = advance(plan.floor_map, motion.u, motion.v, force.p0, force.p1)
+                d, e = advance(plan.brace_map, motion.d, motion.e, force.b0, force.b1)
+                end = Motion(u, v, d, e)
+                quiet = slip_is_quiet(plan, motion, end, force, phase, h)
+            if quiet:
+                if phase == STICK:
+                    peaks = stick_peaks(plan, work, order, False, motion, end, force, offset, h, peaks)
+                else:
+                    peaks = slip_peaks(plan, work, order, False, motion, end, force, phase, h, peaks)
+                done, lost = whole_piece_work(
+                    plan, losses, phase, motion, end, force, acceleration, rate, h, certify
+                )
+                s[INPUT] += done
+                s[VISCOUS] += lost
+                motion = end
+                part += 1
+                tau = target
+                continue
+
+        if phase == STICK:
+            b = plan.stick
+            expand(floor, order, motion.u, motion.v, b.g, b.w2, force.p0, force.p1, h)
+            x, sign = search_stick(plan, work, order, h, offset, touching)
+        else:
+            b = plan.floor
+            expand(floor, order, motion.u, motion.v, b.g, b.w2, force.p0, force.p1, h)
+            b = plan.brace
+            expand(brace, order, motion.d, motion.e, b.g, b.w2, force.b0, force.b1, h)
+            x = search_slip(plan, work, order, h, phase, kick)
+            sign = phase
+        happens = x <= 1.0
+        x = min(x, 1.0)
+        if tracing:
+            so_far = Energy(s[INPUT], s[VISCOUS], s[RELEASE])
+            walked = (tau + x * h if happens else target) + reach
+            while written < traces.shape[0] and written * dt_out - at <= walked:
+                y = min(max((written * dt_out - at - tau) / h, 0.0), x)
+                write_trace(
+                    plan,
+                    work,
+                    order,
+                    phase,
+                    offset,
+                    s[ANCHOR],
+                    s[TRAVEL],
+                    so_far,
+                    acceleration,
+                    rate,
+                    h,
+                    y,
+                    traces[written],
+                )
+                written += 1
+        done, lost = series_work(plan, phase, work, order, acceleration, rate, h, x, certify)
+        s[INPUT] += done
+        s[VISCOUS] += lost
+        if happens:
+            shorten(floor, order, x)
+            if phase != STICK:
+                shorten(brace, order, x)
+            h *= x
+        if h > 0.0:
+            u, v = end_of_series(floor, order, h)
+            d = u - offset
+            e = v
+            if phase != STICK:
+                d, e = end_of_series(brace, order, h)
+            end = Motion(u, v, d, e)
+            if phase == STICK:
+                peaks = stick_peaks(plan, work, order, True, motion, end, force, offset, h, peaks)
+            else:
+                peaks = slip_peaks(plan, work, order, True, motion, end, force, phase, h, peaks)
+            motion = end
+        touching = STICK
+        kick = NO_KICK
+        if not happens:
+            part += 1
+            whole = True
+            tau = target
+            continue
+
+        tau += h
+        s[EVENTS] += 1.0
+        if s[EVENTS] > TRANSITION_CAP:
+            s[STATUS] = TRANSITION_CAP_REACHED
+            break
+        changes = True
+        if phase == STICK:
+            s[ANCHOR] = offset
+            spring = motion.d
+            motion, kick = begin_slip(storey, sign, motion, limit)
+            s[RELEASE] += spring_release(storey, spring, motion.d)
+            phase = sign
+        else:
+            v = 0.0 if loose and not free else motion.v
+            motion = Motion(motion.u, v, motion.d, motion.e if loose else v)
+            slipped = sign * (motion.u - motion.d - s[ANCHOR])
+            held = reaction(storey, motion.u, motion.v, motion.d)
+            if storey.brace_mass == 0.0:
+                held = sign * storey.kinetic_slip_force
+            after = -sign if free else phase_after_stop(sign, held, limit)
+            if after == GOES_ON:
+                kick = sliding_kick(storey, held)
+                changes = False
+            else:
+                s[TRAVEL] += slipped
+                s[ANCHOR] = motion.u - motion.d
+                phase = after
+                changes = not free
+                if phase == STICK:
+                    offset = motion.u - motion.d
+                    motion = Motion(motion.u, motion.v, motion.d, motion.v)
+                    if abs(held) == limit:
+                        touching = sign
+                elif not free:
+                    kick = sliding_kick(storey, held)
+        if changes:
+            k = int(s[TRANSITIONS])
+            if k < times.size:
+                times[k] = at + tau
+                phases[k] = phase
+            s[TRANSITIONS] = k + 1.0
+        peaks = with_instant(plan, phase, offset, motion, peaks)
+        pieces = 1 if phase == STICK else int(plan.slip_steps)
+        part = 0 if phase == STICK else min(int(tau / plan.slip_step), pieces - 1)
+        if part + 1 < pieces and (part + 1) * plan.slip_step <= tau:
+            part += 1
+        whole = False
+
+    if not abs(motion.u) + abs(motion.v) + abs(motion.d) + abs(motion.e) < math.inf:
+        s[STATUS] = NON_FINITE_STATE
+    s[U] = motion.u
+    s[V] = motion.v
+    s[D] = motion.d
+    s[E] = motion.e
+    s[OFFSET] = offset
+    s[PHASE] = phase
+    s[KICK] = kick
+    s[TOUCHING] = touching
+    s[PEAK_ACCELERATION] = peaks.acceleration
+    s[PEAK_DISPLACEMENT] = peaks.displacement
+    s[PEAK_VELOCITY] = peaks.velocity
+    s[PEAK_SHEAR] = peaks.shear
+    return written
