@@ -53,16 +53,41 @@ GIVEN_FORCE = 5
 FRICTION = 6
 """s F_sl while the storey slips, else 0, N."""
 FLOOR_SHARE = 7
-"""m_d / (m_f + m_d): the share of P in the reaction."""
-SLIP_RATE = 8
-"""Bound on the square of the frequency that a slip of this storey adds, 1/s2."""
-MODEL_ROWS = 9
-"""Rows of the ``model`` array (MODEL_ROWS, N): what the phases make of the building."""
+BRACE_SHARE = 8
+"""m_d / (m_f + m_d) and its complement: the shares of P and B in the reaction."""
+SLIP_RATE = 9
+"""Bound on the rates that a slip of this storey adds, 1/s."""
+COLUMNS = 10
+COLUMN_DASHPOTS = 11
+GROUND_SPRINGS = 12
+GROUND_DASHPOTS = 13
+"""The frame's own springs and dashpots, as in ``frame``."""
+MODEL_ROWS = 14
+"""Rows of the ``model`` array (MODEL_ROWS, lanes): what the phases make of the building.  Its columns
+are the storeys and as many empty ones as fill the last group of four."""
 
 PLAIN = 0
 MASSLESS = 1
 NO_BRACE = 2
 """Kinds of storey."""
+
+
+@inner
+def is_damped(frame):
+    """Whether any dashpot stands between neighbours."""
+    for i in range(frame.shape[1]):
+        if frame[STOREY_DAMPING, i] != 0.0 or frame[BRACE_DAMPING, i] != 0.0:
+            return True
+    return False
+
+
+@inner
+def is_grounded(frame):
+    """Whether any spring or dashpot joins a floor to the ground."""
+    for i in range(frame.shape[1]):
+        if frame[GROUND_STIFFNESS, i] != 0.0 or frame[GROUND_DAMPING, i] != 0.0:
+            return True
+    return False
 
 
 @inner
@@ -140,6 +165,11 @@ def prepare(frame, model, held):
         floor = frame[FLOOR_MASS, i]
         brace = frame[BRACE_MASS, i]
         model[FLOOR_SHARE, i] = brace / (floor + brace)
+        model[BRACE_SHARE, i] = floor / (floor + brace)
+        model[COLUMNS, i] = frame[STOREY_STIFFNESS, i]
+        model[COLUMN_DASHPOTS, i] = frame[STOREY_DAMPING, i]
+        model[GROUND_SPRINGS, i] = frame[GROUND_STIFFNESS, i]
+        model[GROUND_DASHPOTS, i] = frame[GROUND_DAMPING, i]
         model[SLIP_RATE, i] = 0.0
         stiffness = frame[BRACE_STIFFNESS, i]
         damping = frame[BRACE_DAMPING, i]
@@ -148,8 +178,7 @@ def prepare(frame, model, held):
             share = math.sqrt(brace / below)
             k = max(stiffness / brace * (1.0 + share), held[0] + stiffness / brace * share)
             c = max(damping / brace * (1.0 + share), held[1] + damping / brace * share)
-            rate = rate_of(k, c)
-            model[SLIP_RATE, i] = rate
+            model[SLIP_RATE, i] = rate_of(k, c)
         elif damping > 0.0:
             model[SLIP_RATE, i] = stiffness / damping
 

@@ -13,54 +13,62 @@ from fdspec.kernels.frame import (
     STOREY_DAMPING,
     STOREY_STIFFNESS,
 )
+from fdspec.kernels.lanes import LANES, load, plus, scaled, store
 from fdspec.kernels.quadrature import NODES, WEIGHTS
-from fdspec.kernels.taylor import DISPLACEMENT, FLOOR, OFFSET, SLIDING_VELOCITY, SLIP_OFFSET, VELOCITY
+from fdspec.kernels.taylor import DISPLACEMENT, OFFSET, SLIDING, VELOCITY
 
 
 @inner
-def input_work(frame, series, n, ground, rise, x):
+def input_work(frame, series, n, h, ground, rise, x):
     """Work (J) of the ground acceleration on the first part x of the step: - a_g sum m u', integrated."""
     total = 0.0
-    for i in range(1, frame.shape[1] + 1):
-        floor = 0.0
-        brace = 0.0
-        for k in range(n, 0, -1):
-            weight = ground + rise * x * k / (k + 1)
-            floor = (floor + series[FLOOR, k, i] * weight) * x
-            brace = (brace + series[OFFSET, k, i] * weight) * x
-        mass = frame[BRACE_MASS, i - 1]
-        total -= (frame[FLOOR_MASS, i - 1] + mass) * floor - mass * brace
-    return total
+    for k in range(n, -1, -1):
+        momentum = 0.0
+        for i in range(frame.shape[1]):
+            brace = frame[BRACE_MASS, i]
+            momentum += (frame[FLOOR_MASS, i] + brace) * series[VELOCITY, i + 1, k]
+            momentum -= brace * series[SLIDING, i + 1, k]
+        total = total * x + momentum * (ground / (k + 1) + rise * x / (k + 2))
+    return -total * h * x
 
 
 @inner
-def viscous_work(frame, dense_damping, series, n, h, x, velocity, sliding):
-    """Work (J) into all dashpots on the first part x of the step; velocity, sliding (N + 1) are work room."""
+def viscous_work(frame, dense_damping, damped, series, n, h, x, velocity, sliding):
+    """Work (J) into all dashpots on the first part x of the step.
+
+    velocity and sliding (1 + lanes, 1) are room to work in, zero in their first row.
+    """
     size = frame.shape[1]
     total = 0.0
     for node in range(len(NODES)):
         y = x * NODES[node]
-        for i in range(size + 1):
-            velocity[i] = 0.0
-            sliding[i] = 0.0
-        for k in range(n, 0, -1):
-            for i in range(1, size + 1):
-                velocity[i] = velocity[i] * y + k * series[FLOOR, k, i]
-                sliding[i] = sliding[i] * y + k * series[OFFSET, k, i]
+        speeds_at(series[VELOCITY], size, n, y, velocity)
+        if damped:
+            speeds_at(series[SLIDING], size, n, y, sliding)
         power = 0.0
         for i in range(1, size + 1):
-            drift = velocity[i] - velocity[i - 1]
-            brace = drift - sliding[i]
+            drift = velocity[i, 0] - velocity[i - 1, 0]
+            brace = drift - sliding[i, 0]
             power += frame[STOREY_DAMPING, i - 1] * drift * drift
-            power += frame[GROUND_DAMPING, i - 1] * velocity[i] * velocity[i]
+            power += frame[GROUND_DAMPING, i - 1] * velocity[i, 0] * velocity[i, 0]
             power += frame[BRACE_DAMPING, i - 1] * brace * brace
         for i in range(dense_damping.shape[0]):
             force = 0.0
             for j in range(size):
-                force += dense_damping[i, j] * velocity[j + 1]
-            power += force * velocity[i + 1]
+                force += dense_damping[i, j] * velocity[j + 1, 0]
+            power += force * velocity[i + 1, 0]
         total += WEIGHTS[node] * power
-    return total * x / h
+    return total * x * h
+
+
+@inner
+def speeds_at(series, size, n, y, out):
+    """Values of all rows at the fraction y."""
+    for i in range(1, size + 1, LANES):
+        x = load(series, i, n)
+        for k in range(n - 1, -1, -1):
+            x = plus(scaled(x, y), load(series, i, k))
+        store(out, i, 0, x)
 
 
 @inner
@@ -95,6 +103,6 @@ def strain_energy(frame, dense_stiffness, u, offset):
 @inner
 def stored_energy(frame, dense_stiffness, state):
     """Kinetic and strain energy (J) of a state."""
-    return kinetic_energy(frame, state[VELOCITY], state[SLIDING_VELOCITY]) + strain_energy(
-        frame, dense_stiffness, state[DISPLACEMENT], state[SLIP_OFFSET]
+    return kinetic_energy(frame, state[VELOCITY], state[SLIDING]) + strain_energy(
+        frame, dense_stiffness, state[DISPLACEMENT], state[OFFSET]
     )

@@ -3,90 +3,113 @@
 from __future__ import annotations
 
 from fdspec.jit import inner
-from fdspec.kernels.frame import BRACE_MASS, FLOOR_MASS
+from fdspec.kernels.frame import BRACE_MASS, FLOOR_MASS, SLIDING_COMPLIANCE
 from fdspec.kernels.roots import largest_magnitude
-from fdspec.kernels.taylor import FLOOR, INERTIA, OFFSET
+from fdspec.kernels.taylor import (
+    ACCELERATION_REACH,
+    DISPLACEMENT,
+    INERTIA,
+    OFFSET,
+    REACTION_REACH,
+    SLIDING,
+    VELOCITY,
+)
 
-ACCELERATION = 0
-DISPLACEMENT = 1
-VELOCITY = 2
-DRIFT = 3
-SHEAR = 4
-BRACE_DISPLACEMENT = 5
+PEAK_ACCELERATION = 0
+PEAK_DISPLACEMENT = 1
+PEAK_VELOCITY = 2
+PEAK_DRIFT = 3
+PEAK_SHEAR = 4
+PEAK_BRACE_DISPLACEMENT = 5
 PEAK_ROWS = 6
 """Rows of the ``peaks`` array (6, N): absolute, relative to the ground, relative to the floor below, N."""
 
 
 @inner
-def raise_peaks(frame, series, n, h, c, tail, peaks):
-    """Raise the peaks to those of the step.
+def raise_peaks(frame, model, series, reach, n, h, x, ground, rise, c, peaks):
+    """Raise the peaks to those of the first part x of the step.
 
-    A quantity is at most its value at the start plus the magnitudes of its other terms; only where
-    that leaves room for a new peak is it searched.  tail (4, N + 1) is room to work in.
+    A quantity is at most its value at the start and what its acceleration can make of it over the
+    whole step; only where that leaves room for a new peak is it searched.
     """
-    size = frame.shape[1]
-    u = series[FLOOR]
+    u = series[DISPLACEMENT]
+    v = series[VELOCITY]
     o = series[OFFSET]
     inertia = series[INERTIA]
-    for row in range(4):
-        for i in range(size + 1):
-            tail[row, i] = 0.0
-    for k in range(1, n + 1):
-        for i in range(1, size + 1):
-            tail[0, i] += abs(u[k, i])
-            tail[3, i] += abs(o[k, i])
-    for k in range(2, n + 1):
-        for i in range(1, size + 1):
-            tail[1, i] += k * abs(u[k, i])
-    for k in range(1, n - 1):
-        for i in range(1, size + 1):
-            tail[2, i] += abs(inertia[k, i])
+    strongest = abs(ground) + abs(rise)
     shear = 0.0
-    shear_tail = 0.0
-    for i in range(size, 0, -1):
-        j = i - 1
-        if abs(inertia[0, i]) + tail[2, i] > peaks[ACCELERATION, j]:
-            for k in range(n - 1):
-                c[k] = inertia[k, i]
-            peaks[ACCELERATION, j] = largest_magnitude(c, n - 2, peaks[ACCELERATION, j])
-        if abs(u[0, i]) + tail[0, i] > peaks[DISPLACEMENT, j]:
-            for k in range(n + 1):
-                c[k] = u[k, i]
-            peaks[DISPLACEMENT, j] = largest_magnitude(c, n, peaks[DISPLACEMENT, j])
-        if abs(u[1, i]) + tail[1, i] > peaks[VELOCITY, j] * h:
-            for k in range(n):
-                c[k] = (k + 1) * u[k + 1, i] / h
-            peaks[VELOCITY, j] = largest_magnitude(c, n - 1, peaks[VELOCITY, j])
-        if abs(u[0, i] - u[0, j]) + tail[0, i] + tail[0, j] > peaks[DRIFT, j]:
-            for k in range(n + 1):
-                c[k] = u[k, i] - u[k, j]
-            peaks[DRIFT, j] = largest_magnitude(c, n, peaks[DRIFT, j])
-        if abs(u[0, i] - o[0, i]) + tail[0, i] + tail[3, i] > peaks[BRACE_DISPLACEMENT, j]:
-            for k in range(n + 1):
-                c[k] = u[k, i] - o[k, i]
-            peaks[BRACE_DISPLACEMENT, j] = largest_magnitude(c, n, peaks[BRACE_DISPLACEMENT, j])
-        # The storey shear carries the inertia of all masses above: those of floor and brace, less what
+    shear_reach = 0.0
+    for j in range(frame.shape[1] - 1, -1, -1):
+        i = j + 1
+        reach_a = reach[ACCELERATION_REACH, j]
+        now = abs(inertia[i, 0])
+        if now + reach_a > peaks[PEAK_ACCELERATION, j]:
+            take(inertia[i], n - 1, x, c)
+            peaks[PEAK_ACCELERATION, j] = largest_magnitude(c, n - 1, peaks[PEAK_ACCELERATION, j])
+        pull = h * (now + reach_a + strongest)
+        if abs(v[i, 0]) + pull > peaks[PEAK_VELOCITY, j]:
+            take(v[i], n, x, c)
+            peaks[PEAK_VELOCITY, j] = largest_magnitude(c, n, peaks[PEAK_VELOCITY, j])
+        way = h * (abs(v[i, 0]) + 0.5 * pull)
+        if abs(u[i, 0]) + way > peaks[PEAK_DISPLACEMENT, j]:
+            take(u[i], n, x, c)
+            peaks[PEAK_DISPLACEMENT, j] = largest_magnitude(c, n, peaks[PEAK_DISPLACEMENT, j])
+        way_below = 0.0
+        if j > 0:
+            pull = h * (abs(inertia[j, 0]) + reach[ACCELERATION_REACH, j - 1] + strongest)
+            way_below = h * (abs(v[j, 0]) + 0.5 * pull)
+        if abs(u[i, 0] - u[j, 0]) + way + way_below > peaks[PEAK_DRIFT, j]:
+            take_difference(u[i], u[j], n, x, c)
+            peaks[PEAK_DRIFT, j] = largest_magnitude(c, n, peaks[PEAK_DRIFT, j])
+        # Sliding accelerates by its compliance times the reaction; a massless brace has none and goes with
+        # the drift.
+        slide = abs(series[SLIDING, i, 1]) + h * model[SLIDING_COMPLIANCE, j] * reach[REACTION_REACH, j]
+        if frame[BRACE_MASS, j] > 0.0:
+            way += h * (abs(series[SLIDING, i, 0]) + slide)
+        else:
+            way = peaks[PEAK_BRACE_DISPLACEMENT, j]
+        if abs(u[i, 0] - o[i, 0]) + way > peaks[PEAK_BRACE_DISPLACEMENT, j]:
+            take_difference(u[i], o[i], n, x, c)
+            peaks[PEAK_BRACE_DISPLACEMENT, j] = largest_magnitude(c, n, peaks[PEAK_BRACE_DISPLACEMENT, j])
+        # The storey shear carries the inertia of all masses above: that of floor and brace, less what
         # the brace's acceleration falls short of the floor's.
         mass = frame[FLOOR_MASS, j] + frame[BRACE_MASS, j]
-        lag = frame[BRACE_MASS, j] / (h * h)
-        shear += mass * inertia[0, i] - lag * 2.0 * o[2, i]
-        shear_tail += mass * tail[2, i]
-        for k in range(1, n - 1):
-            shear_tail += lag * (k + 2) * (k + 1) * abs(o[k + 2, i])
-        if abs(shear) + shear_tail > peaks[SHEAR, j]:
+        lag = frame[BRACE_MASS, j] / h
+        shear += mass * inertia[i, 0] - lag * series[SLIDING, i, 1]
+        shear_reach += (
+            mass * reach_a + frame[BRACE_MASS, j] * model[SLIDING_COMPLIANCE, j] * (reach[REACTION_REACH, j])
+        )
+        if abs(shear) + shear_reach > peaks[PEAK_SHEAR, j]:
             storey_shear(frame, series, n, h, j, c)
-            peaks[SHEAR, j] = largest_magnitude(c, n - 2, peaks[SHEAR, j])
+            take(c, n - 1, x, c)
+            peaks[PEAK_SHEAR, j] = largest_magnitude(c, n - 1, peaks[PEAK_SHEAR, j])
+
+
+@inner
+def take(series, n, x, c):
+    """Copy a series, rescaled to the first part x of its step."""
+    power = 1.0
+    for k in range(n + 1):
+        c[k] = series[k] * power
+        power *= x
+
+
+@inner
+def take_difference(series, other, n, x, c):
+    """Copy the difference of two series, rescaled to the first part x of their step."""
+    power = 1.0
+    for k in range(n + 1):
+        c[k] = (series[k] - other[k]) * power
+        power *= x
 
 
 @inner
 def storey_shear(frame, series, n, h, storey, c):
     """Series of the shear (N) in frame and brace of one storey, counted from 0, positive with the drift."""
-    o = series[OFFSET]
-    inertia = series[INERTIA]
-    for k in range(n - 1):
+    for k in range(n):
         c[k] = 0.0
-    for i in range(frame.shape[1], storey, -1):
-        mass = frame[FLOOR_MASS, i - 1] + frame[BRACE_MASS, i - 1]
-        lag = frame[BRACE_MASS, i - 1] / (h * h)
-        for k in range(n - 1):
-            c[k] -= mass * inertia[k, i] - lag * (k + 2) * (k + 1) * o[k + 2, i]
+    for j in range(frame.shape[1] - 1, storey - 1, -1):
+        mass = frame[FLOOR_MASS, j] + frame[BRACE_MASS, j]
+        lag = frame[BRACE_MASS, j] / h
+        for k in range(n):
+            c[k] -= mass * series[INERTIA, j + 1, k] - lag * (k + 1) * series[SLIDING, j + 1, k + 1]

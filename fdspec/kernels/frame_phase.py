@@ -12,7 +12,7 @@ from fdspec.kernels.frame import (
     SLIP_FORCE,
 )
 from fdspec.kernels.friction import GOES_ON, phase_after_stop
-from fdspec.kernels.taylor import DISPLACEMENT, SLIDING_VELOCITY, SLIP_OFFSET
+from fdspec.kernels.taylor import DISPLACEMENT, OFFSET, SLIDING
 from fdspec.kernels.types import STICK
 
 ANCHOR = 0
@@ -36,8 +36,8 @@ def begin_slip(frame, kind, phase, fresh, state, tally, i, sign):
     static = frame[SLIP_FORCE, i]
     kinetic = frame[KINETIC_SLIP_FORCE, i]
     phase[i] = sign
-    tally[ANCHOR, i] = state[SLIP_OFFSET, i]
-    state[SLIDING_VELOCITY, i] = 0.0
+    tally[ANCHOR, i] = state[OFFSET, i]
+    state[SLIDING, i] = 0.0
     if kind[i] == PLAIN:
         fresh[i] = 2 if static == kinetic else 1
     elif frame[BRACE_DAMPING, i] > 0.0:
@@ -47,9 +47,9 @@ def begin_slip(frame, kind, phase, fresh, state, tally, i, sign):
         u = state[DISPLACEMENT]
         drift = u[i] - (u[i - 1] if i > 0 else 0.0)
         stiffness = frame[BRACE_STIFFNESS, i]
-        before = drift - state[SLIP_OFFSET, i]
+        before = drift - state[OFFSET, i]
         after = sign * kinetic / stiffness
-        state[SLIP_OFFSET, i] = drift - after
+        state[OFFSET, i] = drift - after
         tally[RELEASE, i] += 0.5 * stiffness * (before - after) * (before - after)
 
 
@@ -58,7 +58,7 @@ def end_slip(frame, kind, phase, fresh, touching, state, tally, i, held):
     """Decide, at zero sliding velocity, between stick, reversal and going on; ``held`` is the reaction
     that sticking would need.  Return whether the phase changed."""
     sign = phase[i]
-    state[SLIDING_VELOCITY, i] = 0.0
+    state[SLIDING, i] = 0.0
     if frame[SLIP_FORCE, i] == 0.0:  # free sliding has no phases; only its distance is counted by direction
         close_travel(state, tally, i, sign)
         phase[i] = -sign
@@ -86,8 +86,8 @@ def end_slip(frame, kind, phase, fresh, touching, state, tally, i, held):
 @inner
 def close_travel(state, tally, i, sign):
     """Count the distance slipped since the slip began, and begin anew."""
-    tally[TRAVEL, i] += sign * (state[SLIP_OFFSET, i] - tally[ANCHOR, i])
-    tally[ANCHOR, i] = state[SLIP_OFFSET, i]
+    tally[TRAVEL, i] += sign * (state[OFFSET, i] - tally[ANCHOR, i])
+    tally[ANCHOR, i] = state[OFFSET, i]
 
 
 @inner

@@ -2,10 +2,30 @@
 
 from __future__ import annotations
 
+import math
+
 from fdspec.jit import inner
-from fdspec.kernels.frame import NO_BRACE, SLIP_FORCE
+from fdspec.kernels.frame import (
+    BRACE_DAMPING,
+    BRACE_MASS,
+    BRACE_STIFFNESS,
+    FRICTION,
+    NO_BRACE,
+    PLAIN,
+    SLIP_FORCE,
+)
 from fdspec.kernels.roots import NO_ROOT, first_root
-from fdspec.kernels.taylor import OFFSET, REACTION
+from fdspec.kernels.taylor import (
+    ACCELERATION_REACH,
+    DISPLACEMENT,
+    INERTIA,
+    JERK_REACH,
+    OFFSET,
+    REACTION,
+    REACTION_REACH,
+    SLIDING,
+    VELOCITY,
+)
 from fdspec.kernels.types import STICK
 
 SAME_INSTANT = 1e-12
@@ -14,12 +34,14 @@ of a root's place, so storeys that change within it change together."""
 
 
 @inner
-def search(frame, kind, phase, fresh, touching, series, n, c, instants, signs):
+def search(
+    frame, model, kind, phase, fresh, touching, series, reach, state, n, h, ground, rise, c, instants, signs
+):
     """Fill instants[i], the fraction of the step at which storey i changes, and signs[i], its direction.
 
-    Return the smallest instant (NO_ROOT where there is none).  touching[i] is the direction in which
-    a storey that has just stuck stands at its limit: its distance to the limit begins with
-    fresh[i] vanishing terms.
+    Return the smallest instant (NO_ROOT where there is none).  A storey that has just begun to slip has
+    fresh[i] leading terms of its sliding velocity that vanish; one that has just stuck at its limit, in
+    direction touching[i], as many of its distance to the limit.
     """
     first = NO_ROOT
     for i in range(phase.size):
@@ -27,31 +49,71 @@ def search(frame, kind, phase, fresh, touching, series, n, c, instants, signs):
         if kind[i] == NO_BRACE:
             continue
         if phase[i] == STICK:
-            x = search_stick(
-                series[REACTION], i + 1, n - 2, frame[SLIP_FORCE, i], touching[i], fresh[i], c, signs, i
-            )
+            room = frame[SLIP_FORCE, i] - reach[REACTION_REACH, i]
+            if touching[i] != 0 or not abs(series[REACTION, i + 1, 0]) < room:
+                instants[i] = search_stick(
+                    series[REACTION, i + 1],
+                    n - 1,
+                    frame[SLIP_FORCE, i],
+                    room,
+                    touching[i],
+                    fresh[i],
+                    c,
+                    signs,
+                    i,
+                )
         else:
             signs[i] = phase[i]
-            x = search_slip(series[OFFSET], i + 1, n - 1, float(phase[i]), c)
-        instants[i] = x
-        first = min(first, x)
+            easy = fresh[i] == 0 and kind[i] == PLAIN
+            if easy and slips_on(frame, model, phase[i], series, reach, state, h, ground, rise, i):
+                continue
+            if fresh[i] > 1:
+                series[SLIDING, i + 1, 1] = 0.0
+            instants[i] = first_root(series[SLIDING, i + 1], 0, n, float(phase[i]))
+        first = min(first, instants[i])
     return first
 
 
 @inner
-def search_stick(reaction, column, n, limit, touching, vanishing, c, signs, i):
+def slips_on(frame, model, sign, series, reach, state, h, ground, rise, i):
+    """Whether the sliding velocity surely keeps its sign on the step.
+
+    The brace swings about the floor below with an amplitude that grows by no more than that floor's
+    jerk makes it; the floor itself changes its velocity by no more than its acceleration makes it.
+    """
+    mass = frame[BRACE_MASS, i]
+    stiffness = frame[BRACE_STIFFNESS, i]
+    drift = state[DISPLACEMENT, i]
+    drift_rate = state[VELOCITY, i]
+    pull = abs(series[INERTIA, i + 1, 0]) + reach[ACCELERATION_REACH, i]
+    if i > 0:
+        drift -= state[DISPLACEMENT, i - 1]
+        drift_rate -= state[VELOCITY, i - 1]
+        below = series[INERTIA, i, 0]
+        jerk = reach[JERK_REACH, i - 1]
+        pull += abs(below) + reach[ACCELERATION_REACH, i - 1]
+    else:
+        below = ground
+        jerk = abs(rise)
+        pull += abs(ground) + jerk
+    swing = drift_rate - state[SLIDING, i]
+    stretch = drift - state[OFFSET, i]
+    kick = (model[FRICTION, i] - stiffness * stretch - frame[BRACE_DAMPING, i] * swing) / mass - below
+    slowness = math.sqrt(mass / stiffness)
+    kick *= slowness
+    ring = math.sqrt(swing * swing + kick * kick) + jerk * slowness
+    return sign * drift_rate - h * pull > ring
+
+
+@inner
+def search_stick(reaction, n, limit, room, touching, vanishing, c, signs, i):
     """Where |reaction| reaches the limit; its direction goes to signs[i]."""
-    reach = abs(reaction[0, column])
-    for k in range(1, n + 1):
-        reach += abs(reaction[k, column])
-    if reach < limit:
-        return NO_ROOT
     first = NO_ROOT
     for sign in (1, -1):
-        if reach - abs(reaction[0, column]) + sign * reaction[0, column] < limit and touching != sign:
+        if sign * reaction[0] < room and touching != sign:
             continue
         for k in range(n + 1):
-            c[k] = -sign * reaction[k, column]
+            c[k] = -sign * reaction[k]
         c[0] += limit
         if touching == sign:
             for k in range(vanishing):
@@ -61,16 +123,3 @@ def search_stick(reaction, column, n, limit, touching, vanishing, c, signs, i):
             first = x
             signs[i] = sign
     return first
-
-
-@inner
-def search_slip(offset, column, n, sign, c):
-    """Where the sliding velocity comes to zero."""
-    room = sign * offset[1, column]
-    for k in range(1, n + 1):
-        room -= (k + 1) * abs(offset[k + 1, column])
-    if room > 0.0:
-        return NO_ROOT
-    for k in range(n + 1):
-        c[k] = (k + 1) * offset[k + 1, column]
-    return first_root(c, 0, n, sign)

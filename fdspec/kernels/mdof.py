@@ -16,14 +16,16 @@ from numba import types
 
 from fdspec.jit import entry, float1d, float2d, float3d, inner, int1d
 from fdspec.kernels.frame import (
-    FRAME_ROWS,
     KINETIC_SLIP_FORCE,
+    MASSLESS,
     MODEL_ROWS,
     NO_BRACE,
     PLAIN,
     SLIP_FORCE,
     fastest_rate,
     held_rates,
+    is_damped,
+    is_grounded,
     kind_of,
     prepare,
     rate_of,
@@ -39,22 +41,24 @@ from fdspec.kernels.frame_energy import (
 from fdspec.kernels.frame_peaks import PEAK_ROWS, raise_peaks, storey_shear
 from fdspec.kernels.frame_phase import RELEASE, TALLY_ROWS, begin_slip, end_slip, travel_so_far
 from fdspec.kernels.frame_search import SAME_INSTANT, search
-from fdspec.kernels.roots import value, value_slope
+from fdspec.kernels.lanes import LANES
+from fdspec.kernels.roots import value
 from fdspec.kernels.taylor import (
     DISPLACEMENT,
-    FLOOR,
     INERTIA,
     OFFSET,
+    QUANTITIES,
     REACTION,
-    SLIDING_VELOCITY,
-    SLIP_OFFSET,
+    SLIDING,
     TERMS,
     VELOCITY,
     end_of_step,
     expand,
+    fill_orders,
+    follow_drift,
+    measure,
     order_for,
     reaction_now,
-    shorten,
 )
 from fdspec.kernels.types import (
     NON_FINITE_STATE,
@@ -84,6 +88,9 @@ STOREY_RESULTS = (
     "storey_friction_energy",
 )
 """Rows of ``by_storey`` (11, N); the first six are the peaks."""
+
+COUNTS = 9
+"""Row of the number of changes of phase."""
 
 TOTALS = ("transitions", "dissipated_energy", "viscous_energy", "input_energy", "energy_error", "status")
 """Entries of ``totals`` (6,)."""
@@ -132,12 +139,21 @@ def history(
 ):
     """Integrate one history; see :func:`integrate`."""
     size = frame.shape[1]
-    model = np.zeros((MODEL_ROWS, size))
+    lanes = LANES * ((size + LANES - 1) // LANES)
+    model = np.zeros((MODEL_ROWS, lanes))
     state = np.zeros((4, size))
     tally = np.zeros((TALLY_ROWS, size))
-    series = np.zeros((4, TERMS, size + 1))
-    tail = np.zeros((4, size + 1))
+    series = np.zeros((QUANTITIES, lanes + 1, TERMS))
+    reach = np.zeros((3, lanes))
+    limits = np.zeros(TERMS)
     c = np.zeros(TERMS)
+    velocity = np.zeros((lanes + 1, 1))
+    sliding = np.zeros((lanes + 1, 1))
+    stiffness_lanes = in_lanes(dense_stiffness, lanes)
+    damping_lanes = in_lanes(dense_damping, lanes)
+    damped = is_damped(frame)
+    grounded = is_grounded(frame)
+    fill_orders(limits)
     instants = np.zeros(size)
     signs = np.zeros(size, np.int64)
     kind = np.zeros(size, np.int64)
@@ -148,34 +164,36 @@ def history(
         for i in range(size):
             by_storey[row, i] = 0.0
     peaks = by_storey[:PEAK_ROWS]
-    counts = by_storey[9]
+    counts = by_storey[COUNTS]
 
     held = held_rates(frame, dense_stiffness, dense_damping)
     held_rate = rate_of(held[0], held[1])
     prepare(frame, model, held)
+    massless = False
     for i in range(size):
         kind[i] = kind_of(frame, i)
+        massless = massless or kind[i] == MASSLESS
         state[DISPLACEMENT, i] = start[0, i]
         state[VELOCITY, i] = start[1, i]
-        state[SLIP_OFFSET, i] = start[0, i] - start[2, i]
-        state[SLIDING_VELOCITY, i] = start[1, i] - start[3, i] if kind[i] == PLAIN else 0.0
+        state[OFFSET, i] = start[0, i] - start[2, i]
+        state[SLIDING, i] = start[1, i] - start[3, i] if kind[i] == PLAIN else 0.0
         if kind[i] == NO_BRACE:
-            state[SLIP_OFFSET, i] = 0.0
-        tally[0, i] = state[SLIP_OFFSET, i]
+            state[OFFSET, i] = 0.0
+        tally[0, i] = state[OFFSET, i]
         set_phase(frame, model, phase, i)
     stored = stored_energy(frame, dense_stiffness, state)
     transitions = 0
     for i in range(size):
         if kind[i] == NO_BRACE:
             continue
-        reaction = reaction_now(frame, model, dense_stiffness, dense_damping, state, i)
+        reaction = reaction_now(frame, model, stiffness_lanes, damping_lanes, state, i)
         if frame[SLIP_FORCE, i] == 0.0:
-            sliding = state[SLIDING_VELOCITY, i]
-            begin_slip(frame, kind, phase, fresh, state, tally, i, 1 if sliding >= 0.0 else -1)
-            state[SLIDING_VELOCITY, i] = sliding
+            speed = state[SLIDING, i]
+            begin_slip(frame, kind, phase, fresh, state, tally, i, 1 if speed >= 0.0 else -1)
+            state[SLIDING, i] = speed
             fresh[i] = 0
-        elif state[SLIDING_VELOCITY, i] != 0.0:
-            phase[i] = 1 if state[SLIDING_VELOCITY, i] > 0.0 else -1
+        elif state[SLIDING, i] != 0.0:
+            phase[i] = 1 if state[SLIDING, i] > 0.0 else -1
         elif abs(reaction) > frame[SLIP_FORCE, i]:
             begin_slip(frame, kind, phase, fresh, state, tally, i, 1 if reaction > 0.0 else -1)
             fresh[i] = min(fresh[i], 1)
@@ -204,51 +222,56 @@ def history(
             slope = (ground[step + 1] - a0) / dt
         tau = 0.0
         while True:
-            parts = max(1, int(math.ceil((dt - tau) * rate / radians - 1e-9)))
+            parts = max(1, math.ceil((dt - tau) * rate / radians - 1e-9))
             h = (dt - tau) / parts
-            n = order_for(rate * h, extra)
+            n = order_for(limits, rate * h, extra)
             acceleration = a0 + slope * tau
             rise = slope * h
-            expand(
+            for quantity in range(4):
+                for i in range(size):
+                    series[quantity, i + 1, 0] = state[quantity, i]
+            expand(model, stiffness_lanes, damping_lanes, damped, grounded, n, h, acceleration, rise, series)
+            measure(series, n, reach)
+            if massless:
+                for i in range(size):
+                    if kind[i] == MASSLESS and phase[i] != STICK:
+                        follow_drift(frame, state, fresh, phase, n, h, series, i)
+            x = search(
                 frame,
                 model,
                 kind,
-                dense_stiffness,
-                dense_damping,
-                state,
-                fresh,
                 phase,
+                fresh,
+                touching,
+                series,
+                reach,
+                state,
                 n,
                 h,
                 acceleration,
                 rise,
-                series,
+                c,
+                instants,
+                signs,
             )
-            x = search(frame, kind, phase, fresh, touching, series, n, c, instants, signs)
             happens = x <= 1.0
-            if happens and 0.0 < x < 1.0:
-                shorten(series, n, x)
-                h *= x
-                rise *= x
+            done = x if happens else 1.0
             if tracing:
-                reached = tau + h
+                reached = tau + h * done
                 final = step == steps + free_steps - 1 and not happens and parts == 1
                 while written < traces.shape[0]:
                     at = written * dt_out - step * dt
                     if at > reached and not (final and at <= reached + 1e-6 * dt):
                         break
-                    y = min(max((at - tau) / h, 0.0), 1.0)
-                    if happens and x == 0.0:
-                        y = 0.0
-                    energies[written, 0] = work_in + input_work(frame, series, n, acceleration, rise, y)
+                    y = min(max((at - tau) / h, 0.0), done)
+                    energies[written, 0] = work_in + input_work(frame, series, n, h, acceleration, rise, y)
                     energies[written, 1] = viscous + viscous_work(
-                        frame, dense_damping, series, n, h, y, tail[0], tail[1]
+                        frame, dense_damping, damped, series, n, h, y, velocity, sliding
                     )
                     write_traces(
                         frame,
                         dense_stiffness,
                         phase,
-                        model,
                         series,
                         n,
                         h,
@@ -260,16 +283,18 @@ def history(
                         energies[written],
                     )
                     written += 1
-            if x > 0.0:
-                raise_peaks(frame, series, n, h, c, tail, peaks)
-                work_in += input_work(frame, series, n, acceleration, rise, 1.0)
+            if done > 0.0:
+                raise_peaks(frame, model, series, reach, n, h, done, acceleration, rise, c, peaks)
+                work_in += input_work(frame, series, n, h, acceleration, rise, done)
                 if certify or tracing:
-                    viscous += viscous_work(frame, dense_damping, series, n, h, 1.0, tail[0], tail[1])
-                end_of_step(series, phase, n, h, state)
+                    viscous += viscous_work(
+                        frame, dense_damping, damped, series, n, h, done, velocity, sliding
+                    )
+                end_of_step(series, phase, n, done, state)
                 for i in range(size):
                     fresh[i] = 0
                     touching[i] = 0
-                tau += h
+                tau += h * done
             if not happens:
                 if parts == 1:
                     break
@@ -282,7 +307,7 @@ def history(
                     touching[i] = 0
                     begin_slip(frame, kind, phase, fresh, state, tally, i, signs[i])
                 else:
-                    reaction = reaction_now(frame, model, dense_stiffness, dense_damping, state, i)
+                    reaction = reaction_now(frame, model, stiffness_lanes, damping_lanes, state, i)
                     changed = end_slip(frame, kind, phase, fresh, touching, state, tally, i, reaction)
                 if changed:
                     if transitions < times.size:
@@ -309,13 +334,13 @@ def history(
 
     friction = 0.0
     for i in range(size):
-        travel = travel_so_far(phase, state[SLIP_OFFSET, i], tally, i)
+        travel = travel_so_far(phase, state[OFFSET, i], tally, i)
         work = tally[RELEASE, i]
         if travel > 0.0:
             work += frame[KINETIC_SLIP_FORCE, i] * travel
         friction += work
         by_storey[6, i] = state[DISPLACEMENT, i]
-        by_storey[7, i] = state[DISPLACEMENT, i] - state[SLIP_OFFSET, i]
+        by_storey[7, i] = state[DISPLACEMENT, i] - state[OFFSET, i]
         by_storey[8, i] = travel
         by_storey[10, i] = work
     error = 0.0
@@ -333,7 +358,18 @@ def history(
 
 
 @inner
-def write_traces(frame, dense_stiffness, phase, model, series, n, h, y, tally, state, c, trace, energy):
+def in_lanes(matrix, lanes):
+    """The matrix (N, N) with columns of zeros up to the number of lanes; an empty one as it is."""
+    n = matrix.shape[0]
+    wide = np.zeros((n, lanes if n > 0 else 0))
+    for i in range(n):
+        for j in range(n):
+            wide[i, j] = matrix[i, j]
+    return wide
+
+
+@inner
+def write_traces(frame, dense_stiffness, phase, series, n, h, y, tally, state, c, trace, energy):
     """Write the motion at the fraction y of a step, before what happens at its end."""
     size = frame.shape[1]
     velocity = np.empty(size)
@@ -341,31 +377,24 @@ def write_traces(frame, dense_stiffness, phase, model, series, n, h, y, tally, s
     u = np.empty(size)
     offset = np.empty(size)
     for i in range(size):
-        for k in range(n + 1):
-            c[k] = series[FLOOR, k, i + 1]
-        u[i], velocity[i] = value_slope(c, 0, n, y)
-        velocity[i] /= h
-        offset[i] = state[SLIP_OFFSET, i]
+        j = i + 1
+        u[i] = value(series[DISPLACEMENT, j], n, y)
+        velocity[i] = value(series[VELOCITY, j], n, y)
+        offset[i] = state[OFFSET, i]
         sliding[i] = 0.0
         if phase[i] != STICK:
-            for k in range(n + 1):
-                c[k] = series[OFFSET, k, i + 1]
-            offset[i], sliding[i] = value_slope(c, 0, n, y)
-            sliding[i] /= h
+            offset[i] = value(series[OFFSET, j], n, y)
+            sliding[i] = value(series[SLIDING, j], n, y)
         trace[0, i] = u[i]
         trace[1, i] = velocity[i]
-        for k in range(n - 1):
-            c[k] = series[INERTIA, k, i + 1]
-        trace[2, i] = value(c, n - 2, y)
+        trace[2, i] = value(series[INERTIA, j], n - 1, y)
         storey_shear(frame, series, n, h, i, c)
-        trace[3, i] = value(c, n - 2, y)
+        trace[3, i] = value(c, n - 1, y)
         trace[4, i] = u[i] - offset[i]
         trace[5, i] = velocity[i] - sliding[i]
         force = phase[i] * frame[KINETIC_SLIP_FORCE, i]
         if phase[i] == STICK:
-            for k in range(n - 1):
-                c[k] = series[REACTION, k, i + 1]
-            force = value(c, n - 2, y)
+            force = value(series[REACTION, j], n - 1, y)
         trace[6, i] = force
         trace[7, i] = phase[i]
         travel = travel_so_far(phase, offset[i], tally, i)

@@ -1,8 +1,9 @@
 """Taylor series of a frame's motion over a step, and what is read from it.
 
-Series are arrays (terms, N) of coefficients of powers of the fraction of the step: c[k] multiplies
-x^k, x in [0, 1].  Four of them lie in one array ``series`` (4, TERMS, N + 1); column 0 is the ground,
-which stands still, so that the storey below the first needs no case of its own.
+A series is a row of coefficients of powers of the fraction of the step: c[k] multiplies x^k, x in
+[0, 1].  All series of a step lie in one array ``series`` (6, 1 + lanes, TERMS): for each of six
+quantities a row of the ground, which stands still, and one of each storey.  Lanes are the storeys
+and as many empty ones as fill the last group of four.
 """
 
 from __future__ import annotations
@@ -10,187 +11,215 @@ from __future__ import annotations
 from fdspec.jit import inner
 from fdspec.kernels.frame import (
     BRACE_DAMPING,
+    BRACE_SHARE,
     BRACE_STIFFNESS,
+    COLUMN_DASHPOTS,
+    COLUMNS,
     COMPLIANCE,
     DASHPOT,
     FLOOR_SHARE,
     FRICTION,
     GIVEN_FORCE,
-    GROUND_DAMPING,
-    GROUND_STIFFNESS,
+    GROUND_DASHPOTS,
+    GROUND_SPRINGS,
     HELD,
     KINETIC_SLIP_FORCE,
-    MASSLESS,
     SLIDING_COMPLIANCE,
     SPRING,
-    STOREY_DAMPING,
-    STOREY_STIFFNESS,
 )
+from fdspec.kernels.lanes import (
+    LANES,
+    less,
+    load,
+    magnitude,
+    minus,
+    plus,
+    rise_from,
+    row,
+    scaled,
+    shifted,
+    store,
+    store_row,
+    times,
+)
+from fdspec.kernels.roots import value
 from fdspec.kernels.types import STICK
 
 TERMS = 40
 """Room for coefficients: enough for steps of five radians."""
 
-FLOOR = 0
-"""Displacement of the floors, m."""
-OFFSET = 1
-"""Slip offset, m."""
-REACTION = 2
-"""Reaction that keeps the sliding velocity constant, N."""
-INERTIA = 3
-"""Absolute acceleration of the floors, m/s2."""
-
 DISPLACEMENT = 0
 VELOCITY = 1
-SLIP_OFFSET = 2
-SLIDING_VELOCITY = 3
-"""Rows of the ``state`` array (4, N)."""
+"""Of the floors relative to the ground, m, m/s."""
+OFFSET = 2
+SLIDING = 3
+"""Slip offset, m, and sliding velocity, m/s.  These four rows are those of ``state`` (4, N) as well."""
+REACTION = 4
+"""Reaction that keeps the sliding velocity constant, N."""
+INERTIA = 5
+"""Absolute acceleration of the floors, m/s2."""
+QUANTITIES = 6
+
+REACTION_REACH = 0
+ACCELERATION_REACH = 1
+JERK_REACH = 2
+"""Rows of ``reach`` (3, lanes): sums over k >= 1 of |R_k| (N), |A_k| (m/s2), k |A_k| (m/s2)."""
+
+TRUNCATION = 1e-17
+"""Size of the first term left out, relative to the first one."""
 
 
 @inner
-def order_for(theta, extra):
-    """Order at which the series over the phase theta (rad) is complete to rounding, and ``extra`` more.
-
-    Accelerations lose two orders to the displacement.
-    """
-    term = 1.0
-    order = 2
-    while order < TERMS - 1 - extra:
-        term *= theta / (order - 1)
-        if term < 1e-17 and order >= 5:
-            break
-        order += 1
-    return order + extra
+def fill_orders(limits):
+    """limits[n]: longest phase (rad) over which a series of order n is complete to rounding."""
+    for n in range(TERMS):
+        low = 0.0
+        high = 16.0
+        for _ in range(60):
+            theta = 0.5 * (low + high)
+            term = 1.0
+            for k in range(1, n + 1):
+                term *= theta / k
+            if term < TRUNCATION:
+                low = theta
+            else:
+                high = theta
+        limits[n] = low
 
 
 @inner
-def expand(
-    frame, model, kind, dense_stiffness, dense_damping, state, fresh, phase, n, h, ground, rise, series
-):
-    """Fill the series of order n over the step h (s) that starts at ``state``.
+def order_for(limits, theta, extra):
+    """Order of the series over the phase theta (rad), with ``extra`` terms more."""
+    n = 5
+    while n < TERMS - 1 - extra and limits[n] < theta:
+        n += 1
+    return n + extra
 
-    ground: the ground's acceleration at the start, m/s2; rise: its change over the step.  fresh[i]:
-    how many leading terms of the sliding velocity vanish because a slip begins here.
+
+@inner
+def expand(model, dense_stiffness, dense_damping, damped, grounded, n, h, ground, rise, series):
+    """Fill the series of order n over the step h (s) from their first terms.
+
+    ground: the ground's acceleration at the start, m/s2; rise: its change over the step.  The dense
+    matrices are (N, lanes) or empty.
     """
-    size = frame.shape[1]
-    u = series[FLOOR]
+    u = series[DISPLACEMENT]
+    v = series[VELOCITY]
     o = series[OFFSET]
+    w = series[SLIDING]
     reaction = series[REACTION]
     inertia = series[INERTIA]
-    for i in range(size):
-        u[0, i + 1] = state[DISPLACEMENT, i]
-        u[1, i + 1] = state[VELOCITY, i] * h
-        o[0, i + 1] = state[SLIP_OFFSET, i]
-        o[1, i + 1] = state[SLIDING_VELOCITY, i] * h
+    groups = model.shape[1] // LANES
     has_stiffness = dense_stiffness.shape[0] > 0
     has_damping = dense_damping.shape[0] > 0
-    for k in range(n - 1):
-        rate = (k + 1) / h
-        factor = h * h / ((k + 1) * (k + 2))
+    for k in range(n):
+        factor = h / (k + 1)
         above = 0.0
-        for i in range(size - 1, -1, -1):
-            g = u[k, i + 1] - u[k, i]
-            g_rate = (u[k + 1, i + 1] - u[k + 1, i]) * rate
-            spring = frame[STOREY_STIFFNESS, i] * g + frame[STOREY_DAMPING, i] * g_rate
-            brace = model[SPRING, i] * (g - o[k, i + 1]) + model[DASHPOT, i] * (
-                g_rate - o[k + 1, i + 1] * rate
-            )
+        for group in range(groups - 1, -1, -1):
+            i = LANES * group
+            x = load(u, i + 1, k)
+            y = load(v, i + 1, k)
+            z = load(w, i + 1, k)
+            drift = rise_from(x, u[i, k])
+            brace = times(row(model, SPRING, i), minus(drift, load(o, i + 1, k)))
+            storey = times(row(model, COLUMNS, i), drift)
+            if damped:
+                drift_rate = rise_from(y, v[i, k])
+                brace = plus(brace, times(row(model, DASHPOT, i), minus(drift_rate, z)))
+                storey = plus(storey, times(row(model, COLUMN_DASHPOTS, i), drift_rate))
             if k == 0:
-                brace += model[GIVEN_FORCE, i]
-            floor = (
-                above
-                - spring
-                - frame[GROUND_STIFFNESS, i] * u[k, i + 1]
-                - frame[GROUND_DAMPING, i] * u[k + 1, i + 1] * rate
-            )
+                brace = plus(brace, row(model, GIVEN_FORCE, i))
+            total = plus(storey, brace)
+            floor = minus(shifted(total, above), storey)
+            above = total[0]
+            if grounded:
+                floor = minus(floor, times(row(model, GROUND_SPRINGS, i), x))
+                floor = minus(floor, times(row(model, GROUND_DASHPOTS, i), y))
             if has_stiffness:
-                for j in range(size):
-                    floor -= dense_stiffness[i, j] * u[k, j + 1]
+                for j in range(dense_stiffness.shape[0]):
+                    floor = minus(floor, scaled(row(dense_stiffness, j, i), u[j + 1, k]))
             if has_damping:
-                total = 0.0
-                for j in range(size):
-                    total += dense_damping[i, j] * u[k + 1, j + 1]
-                floor -= total * rate
-            share = model[FLOOR_SHARE, i]
-            r = share * floor + (1.0 - share) * brace
-            a = floor - model[HELD, i] * brace
-            slide = r
+                for j in range(dense_damping.shape[0]):
+                    floor = minus(floor, scaled(row(dense_damping, j, i), v[j + 1, k]))
+            held = plus(times(row(model, FLOOR_SHARE, i), floor), times(row(model, BRACE_SHARE, i), brace))
+            push = minus(floor, times(row(model, HELD, i), brace))
+            slide = held
             if k == 0:
-                a -= model[FRICTION, i]
-                slide -= model[FRICTION, i]
-            a *= model[COMPLIANCE, i]
-            reaction[k, i + 1] = r
-            inertia[k, i + 1] = a
+                push = minus(push, row(model, FRICTION, i))
+                slide = minus(slide, row(model, FRICTION, i))
+            push = times(row(model, COMPLIANCE, i), push)
+            slide = times(row(model, SLIDING_COMPLIANCE, i), slide)
+            store(reaction, i + 1, k, held)
+            store(inertia, i + 1, k, push)
             if k == 0:
-                a -= ground
+                push = less(push, ground)
             elif k == 1:
-                a -= rise
-            u[k + 2, i + 1] = factor * a
-            slide *= factor * model[SLIDING_COMPLIANCE, i]
-            if fresh[i] > 1 and k == 0:
-                slide = 0.0
-            o[k + 2, i + 1] = slide
-            above = spring + brace
-    for i in range(size):
-        if kind[i] == MASSLESS and phase[i] != STICK:
-            follow_drift(frame, state, fresh, phase, n, h, u, o, i)
+                push = less(push, rise)
+            store(u, i + 1, k + 1, scaled(y, factor))
+            store(v, i + 1, k + 1, scaled(push, factor))
+            store(o, i + 1, k + 1, scaled(z, factor))
+            store(w, i + 1, k + 1, scaled(slide, factor))
 
 
 @inner
-def follow_drift(frame, state, fresh, phase, n, h, u, o, i):
+def measure(series, n, reach):
+    """Fill ``reach``: how far reactions and accelerations may go from their values at the start."""
+    reaction = series[REACTION]
+    inertia = series[INERTIA]
+    for i in range(0, reach.shape[1], LANES):
+        far = (0.0, 0.0, 0.0, 0.0)
+        swing = (0.0, 0.0, 0.0, 0.0)
+        jerk = (0.0, 0.0, 0.0, 0.0)
+        for k in range(1, n):
+            far = plus(far, magnitude(load(reaction, i + 1, k)))
+            term = magnitude(load(inertia, i + 1, k))
+            swing = plus(swing, term)
+            jerk = plus(jerk, scaled(term, float(k)))
+        store_row(reach, REACTION_REACH, i, far)
+        store_row(reach, ACCELERATION_REACH, i, swing)
+        store_row(reach, JERK_REACH, i, jerk)
+
+
+@inner
+def follow_drift(frame, state, fresh, phase, n, h, series, i):
     """Series of the offset of a slipping massless brace: the drift less the brace's own stretch.
 
     The stretch is s F / k_d, towards which it relaxes at the rate k_d / c_d where there is a dashpot.
     """
+    u = series[DISPLACEMENT]
+    v = series[VELOCITY]
+    o = series[OFFSET]
+    w = series[SLIDING]
     stiffness = frame[BRACE_STIFFNESS, i]
     damping = frame[BRACE_DAMPING, i]
     stretch = phase[i] * frame[KINETIC_SLIP_FORCE, i] / stiffness
     excess = 0.0
     decay = 0.0
+    rate = 0.0
     if damping > 0.0:
-        decay = -stiffness / damping * h
-        excess = u[0, i + 1] - u[0, i] - state[SLIP_OFFSET, i] - stretch
+        rate = -stiffness / damping
+        decay = rate * h
+        excess = u[i + 1, 0] - u[i, 0] - state[OFFSET, i] - stretch
     else:
-        o[0, i + 1] = u[0, i + 1] - u[0, i] - stretch
-    for k in range(1, n + 1):
-        excess *= decay / k
-        o[k, i + 1] = u[k, i + 1] - u[k, i] - excess
+        o[i + 1, 0] = u[i + 1, 0] - u[i, 0] - stretch
+    for k in range(n + 1):
+        if k > 0:
+            excess *= decay / k
+            o[i + 1, k] = u[i + 1, k] - u[i, k] - excess
+        w[i + 1, k] = v[i + 1, k] - v[i, k] - rate * excess
     if fresh[i] > 0:
-        o[1, i + 1] = 0.0
+        w[i + 1, 0] = 0.0
+        o[i + 1, 1] = 0.0
 
 
 @inner
-def shorten(series, n, x):
-    """Rescale the series of a step to its first part x."""
-    power = 1.0
-    for k in range(1, n + 1):
-        power *= x
-        for which in range(series.shape[0]):
-            for i in range(1, series.shape[2]):
-                series[which, k, i] *= power
-
-
-@inner
-def end_of_step(series, phase, n, h, state):
-    """Set the state to the end of the step."""
-    u = series[FLOOR]
-    o = series[OFFSET]
+def end_of_step(series, phase, n, x, state):
+    """Set the state to that at the fraction x of the step."""
     for i in range(state.shape[1]):
-        x = 0.0
-        v = 0.0
-        for k in range(n, 0, -1):
-            x += u[k, i + 1]
-            v += k * u[k, i + 1]
-        state[DISPLACEMENT, i] = x + u[0, i + 1]
-        state[VELOCITY, i] = v / h
-        if phase[i] != STICK:
-            x = 0.0
-            v = 0.0
-            for k in range(n, 0, -1):
-                x += o[k, i + 1]
-                v += k * o[k, i + 1]
-            state[SLIP_OFFSET, i] = x + o[0, i + 1]
-            state[SLIDING_VELOCITY, i] = v / h
+        for quantity in (DISPLACEMENT, VELOCITY, OFFSET, SLIDING):
+            if quantity >= OFFSET and phase[i] == STICK:
+                break
+            state[quantity, i] = value(series[quantity, i + 1], n, x)
 
 
 @inner
@@ -201,27 +230,26 @@ def reaction_now(frame, model, dense_stiffness, dense_damping, state, i):
     v = state[VELOCITY]
     drift = u[i] - (u[i - 1] if i > 0 else 0.0)
     drift_rate = v[i] - (v[i - 1] if i > 0 else 0.0)
-    brace = frame[BRACE_STIFFNESS, i] * (drift - state[SLIP_OFFSET, i]) + frame[BRACE_DAMPING, i] * drift_rate
+    brace = frame[BRACE_STIFFNESS, i] * (drift - state[OFFSET, i]) + frame[BRACE_DAMPING, i] * drift_rate
     floor = (
-        -frame[STOREY_STIFFNESS, i] * drift
-        - frame[STOREY_DAMPING, i] * drift_rate
-        - frame[GROUND_STIFFNESS, i] * u[i]
-        - frame[GROUND_DAMPING, i] * v[i]
+        -model[COLUMNS, i] * drift
+        - model[COLUMN_DASHPOTS, i] * drift_rate
+        - model[GROUND_SPRINGS, i] * u[i]
+        - model[GROUND_DASHPOTS, i] * v[i]
     )
     if i + 1 < size:
         j = i + 1
         drift = u[j] - u[i]
         drift_rate = v[j] - v[i]
         floor += (
-            frame[STOREY_STIFFNESS, j] * drift
-            + frame[STOREY_DAMPING, j] * drift_rate
-            + model[SPRING, j] * (drift - state[SLIP_OFFSET, j])
-            + model[DASHPOT, j] * (drift_rate - state[SLIDING_VELOCITY, j])
+            model[COLUMNS, j] * drift
+            + model[COLUMN_DASHPOTS, j] * drift_rate
+            + model[SPRING, j] * (drift - state[OFFSET, j])
+            + model[DASHPOT, j] * (drift_rate - state[SLIDING, j])
             + model[GIVEN_FORCE, j]
         )
     for j in range(dense_stiffness.shape[0]):
-        floor -= dense_stiffness[i, j] * u[j]
+        floor -= dense_stiffness[j, i] * u[j]
     for j in range(dense_damping.shape[0]):
-        floor -= dense_damping[i, j] * v[j]
-    share = model[FLOOR_SHARE, i]
-    return share * floor + (1.0 - share) * brace
+        floor -= dense_damping[j, i] * v[j]
+    return model[FLOOR_SHARE, i] * floor + model[BRACE_SHARE, i] * brace
