@@ -49,7 +49,8 @@ class Variable:
 Registry = Mapping[str, Variable]
 
 
-def _registry(*groups: Iterable[Variable]) -> Registry:
+def registry_of(*groups: Iterable[Variable]) -> Registry:
+    """Return one registry of all these variables; a name that comes twice raises InvalidInput."""
     variables = [variable for group in groups for variable in group]
     names = [variable.name for variable in variables]
     twice = sorted({name for name in names if names.count(name) > 1})
@@ -111,7 +112,7 @@ def response_variables(grid: tuple[str, ...], storey: tuple[str, ...] = ()) -> t
     )
 
 
-CUBE: Final[Registry] = _registry(
+CUBE: Final[Registry] = registry_of(
     motion_variables(("record",)),
     (
         Variable(
@@ -145,7 +146,7 @@ _EACH: Final = ("time", "storey")
 _STOREY: Final = ("storey",)
 _TRANSITION: Final = ("transition",)
 
-HISTORY: Final[Registry] = _registry(
+HISTORY: Final[Registry] = registry_of(
     motion_variables(()),
     (
         Variable("time", _OVER_TIME, "s", "time since the start of the ground motion"),

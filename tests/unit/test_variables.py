@@ -5,7 +5,17 @@ import pytest
 import xarray as xr
 
 from fdspec.errors import InvalidInput
-from fdspec.variables import CUBE, HISTORY, PHASES, STATUSES, STUDY_DIMS, describe, response_variables
+from fdspec.kernels import types
+from fdspec.variables import (
+    CUBE,
+    HISTORY,
+    PHASES,
+    STATUSES,
+    STUDY_DIMS,
+    describe,
+    registry_of,
+    response_variables,
+)
 
 UNITS = {"m/s^2", "m", "m/s", "N", "J", "s", "kg", "1"}
 CONTRACT_OF_SWEEP = [
@@ -108,3 +118,17 @@ def test_describe_writes_attributes_and_leaves_its_input_alone():
 def test_describe_refuses_what_the_registry_does_not_hold(change, complaint):
     with pytest.raises(InvalidInput, match=complaint):
         describe(_small_cube().assign(change), CUBE)
+
+
+def test_a_name_is_registered_once():
+    motion = CUBE["pga"]
+    with pytest.raises(InvalidInput, match="each variable is registered once, but not pga"):
+        registry_of((motion,), (motion,))
+
+
+def test_flags_agree_with_the_kernels():
+    assert tuple(STATUSES.values()) == types.STATUS_MEANINGS
+    assert STATUSES[types.OK] == "ok"
+    assert STATUSES[types.TRANSITION_CAP_REACHED] == "transition_cap_reached"
+    assert STATUSES[types.NON_FINITE_STATE] == "non_finite_state"
+    assert PHASES[types.STICK] == "stick"
