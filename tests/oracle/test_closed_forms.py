@@ -1,8 +1,9 @@
 """fdspec against answers on paper.
 
-Rigid friction against the ground, which fdspec has no element for, is a brace so heavy and so stiff that it moves
-with the ground: it lags by a_g/omega_d^2, and friction bends it by F/(m_d omega_d^2), both below what is asked.
-Where the ground moves the brace has a critical dashpot, for the first sample's jump would make it ring for ever.
+Rigid friction against the ground, which fdspec has no element for, is a brace so heavy and so stiff that it
+moves with the ground: it lags by a_g/omega_d^2, and friction bends it by F/(m_d omega_d^2), both below what
+is asked. Where the ground moves the brace has a critical dashpot, for the first sample's jump would make it ring
+for ever.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ def with_ground_friction(
     heavier: float,
     brace_damping_ratio: float = 0.0,
 ) -> fdspec.Building:
-    """A floor that rubs against the ground: the brace ``heavier`` times its mass, at ``brace_omega`` rad/s."""
+    """A floor that rubs against the ground: a brace ``heavier`` times its mass, at ``brace_omega`` rad/s."""
     return fdspec.Building(
         floor_mass=[mass],
         storey_stiffness=[stiffness],
@@ -89,8 +90,8 @@ DEN_HARTOG = [
 def test_den_hartog(r: float, beta: float, zeta: float, cycles: int) -> None:
     """Harmonic base motion, friction against the ground, steady state without stops.
 
-    A cosine through straight lines has the amplitude (sin(x)/x)^2 of it, x = omega dt / 2: with 2000 samples a cycle
-    8e-7 less, which is put back. The amplitude is read from the last two cycles, through the parabola
+    A cosine through straight lines has the amplitude (sin(x)/x)^2, x = omega dt / 2: with 2000 samples a
+    cycle 8e-7 less, which is put back. The amplitude is read from the last two cycles, through the parabola
     about the largest sample. Two changes of phase a cycle say that it does not stop.
     """
     omega_n, acceleration, mass, per_cycle = 2.0 * math.pi, 1.0, 1000.0, 2000

@@ -1,0 +1,1 @@
+"""fdspec against what its users would pick instead: ``python -m benchmarks``, reported, never asserted."""
