@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fdspec.cli.table import grouped, seconds, size, table
+from fdspec.cli.table import counted, seconds, size, table
 from fdspec.measures import best_damper
 from fdspec.units import G
 
 if TYPE_CHECKING:
     import xarray as xr
+
+AXES = ("record", "stiffness_ratio", "pretension", "period")
 
 SHORT = 0.6
 """s; up to this period the study finds friction dampers to help."""
@@ -21,10 +23,10 @@ SHORT = 0.6
 
 def summary(cube: xr.Dataset, path: Path, elapsed: float) -> str:
     """Return a table of the records and where the cube is."""
-    axes = " x ".join(f"{cube.sizes[dim]}" for dim in ("record", "stiffness_ratio", "pretension", "period"))
-    histories = math.prod(cube.sizes[dim] for dim in ("record", "stiffness_ratio", "pretension", "period"))
+    axes = " x ".join(counted(cube.sizes[dim], dim.replace("_", " ")) for dim in AXES)
+    histories = counted(math.prod(cube.sizes[dim] for dim in AXES), "history", "histories")
     written = f"{path} ({size(path.stat().st_size)})"
-    lines = [f"{written}: {axes} = {grouped(histories)} histories in {seconds(elapsed)}"]
+    lines = [f"{written}: {axes} = {histories}, in {seconds(elapsed)}"]
     if "peak_acceleration" in cube:
         lines = [_records_table(cube), "", *lines]
     return "\n".join(lines)

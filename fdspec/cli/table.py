@@ -22,6 +22,11 @@ def grouped(number: float) -> str:
     return f"{number:,.0f}".replace(",", " ")
 
 
+def counted(number: int, one: str, many: str = "") -> str:
+    """Write a number of things: 1 record, 9 records."""
+    return f"{grouped(number)} {one if number == 1 else many or one + 's'}"
+
+
 def seconds(time: float) -> str:
     """Write a time for a person."""
     if time < 9.95:
