@@ -1,9 +1,11 @@
-"""Forces on a piece of motion, and bounds on what it does between its ends."""
+"""Forces on a piece of motion, bounds on what it does between its ends, and the floor's peaks."""
 
 from __future__ import annotations
 
 from fdspec.jit import inlined, inner
-from fdspec.kernels.types import STICK, Force
+from fdspec.kernels.oscillator import expand
+from fdspec.kernels.roots import largest_magnitude
+from fdspec.kernels.types import FLOOR, SEARCH, STICK, Force, Peaks
 
 
 @inlined
@@ -41,6 +43,83 @@ def crest(start, start_rise, end, end_rise, fourth):
 @inner
 def velocity_series(c, n, h, out):
     """Series of velocity from the series c of displacement."""
+    pace = 1.0 / h
     for k in range(n):
-        out[k] = (k + 1) * c[k + 1] / h
+        out[k] = (k + 1) * c[k + 1] * pace
     out[n] = 0.0
+
+
+@inner
+def shorten(c, n, share):
+    """Rescale the series of a piece to its first part."""
+    power = 1.0
+    for k in range(1, n + 1):
+        power *= share
+        c[k] *= power
+
+
+@inner
+def ready(c, n, share, x, v, g, w2, p0, p1, h):
+    """Make c the series of a piece of length h: from nothing (share 0), or from that of a longer piece."""
+    if share == 0.0:
+        expand(c, n, x, v, g, w2, p0, p1, h)
+    elif share < 1.0:
+        shorten(c, n, share)
+
+
+@inlined
+def floor_fourths(branch, v, a, force_rate, h):
+    """Bounds on h^4 times the fourth derivative of displacement and of velocity over a piece."""
+    theta = branch.rate * h
+    cube = swing(branch, v, a, force_rate) * theta * theta * theta
+    return cube * h, cube * theta
+
+
+@inlined
+def floor_peaks(b, base, mass, work, n, share, start, end, force, h, peaks):
+    """Peaks over a piece in which the oscillator ``b`` carries the floor: its end, and extrema inside.
+
+    Absolute acceleration is base - g v - w2 u; base shear is ``mass`` times it (0: not by this rule).
+    ``share`` tells what the work array holds: 0 nothing, else the series of a piece of which this one
+    is that part.  An extremum is looked for only where bounds leave room for one.
+    """
+    a0 = relative_acceleration(b, start.u, start.v, force.p0)
+    a1 = relative_acceleration(b, end.u, end.v, force.p0 + force.p1 * h)
+    q0 = base - b.g * start.v - b.w2 * start.u
+    q1 = base - b.g * end.v - b.w2 * end.u
+    acceleration = max(peaks.acceleration, abs(q1))
+    displacement = max(peaks.displacement, abs(end.u))
+    velocity = max(peaks.velocity, abs(end.v))
+    shear = max(peaks.shear, mass * abs(q1))
+    least = min(acceleration, shear / mass) if mass > 0.0 else acceleration
+    fourth_u, fourth_v = floor_fourths(b, start.v, a0, force.p1, h)
+    see_u = crest(start.u, h * start.v, end.u, h * end.v, fourth_u) > displacement
+    see_v = crest(start.v, h * a0, end.v, h * a1, fourth_v) > velocity
+    see_q = (
+        crest(
+            q0,
+            -h * (b.g * a0 + b.w2 * start.v),
+            q1,
+            -h * (b.g * a1 + b.w2 * end.v),
+            b.g * fourth_v + b.w2 * fourth_u,
+        )
+        > least
+    )
+    if see_u or see_v or see_q:
+        floor = work[FLOOR]
+        search = work[SEARCH]
+        ready(floor, n, share, start.u, start.v, b.g, b.w2, force.p0, force.p1, h)
+        if see_u:
+            displacement = largest_magnitude(floor, n, displacement)
+        if see_v or see_q:
+            velocity_series(floor, n, h, search)
+        if see_v:
+            velocity = largest_magnitude(search, n, velocity)
+        if see_q:
+            for k in range(n + 1):
+                search[k] = -b.g * search[k] - b.w2 * floor[k]
+            search[0] += base
+            top = largest_magnitude(search, n, least)
+            acceleration = max(acceleration, top)
+            shear = max(shear, mass * top)
+    return Peaks(acceleration, displacement, velocity, shear)

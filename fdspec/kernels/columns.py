@@ -13,13 +13,23 @@ import numpy as np
 from numba import types
 
 from fdspec.jit import entry, float1d, float2d, float3d, ground1d, inner
-from fdspec.kernels.energy import losses
+from fdspec.kernels.bounds import floor_peaks
+from fdspec.kernels.energy import N_FORMS, put_losses
 from fdspec.kernels.packed import (
     ALERT,
+    CREST,
+    END_A,
+    END_S,
+    END_U,
+    END_V,
+    END_W,
+    END_X,
     HELD,
     WIDTH,
+    LIFT,
     LIMIT,
     N_ROWS,
+    PUSH_FLOOR,
     accept_lanes,
     count_alerts,
     loss_lanes,
@@ -29,21 +39,25 @@ from fdspec.kernels.packed import (
     work_lanes,
 )
 from fdspec.kernels.plan import plan, steps_per_sample
-from fdspec.kernels.quadrature import no_loss, step_loss
 from fdspec.kernels.sdof import RESULTS, finish
-from fdspec.kernels.shelf import N_SHELF, put_plan, take_losses, take_plan
+from fdspec.kernels.shelf import N_SHELF, put_plan, take_plan
 from fdspec.kernels.types import (
     KICK,
     N_STATE,
     NO_KICK,
+    OFFSET,
     OK,
     PEAK_ACCELERATION,
     PEAK_SHEAR,
     PHASE,
     STATUS,
     STICK,
+    Force,
     Motion,
+    Peaks,
     Storey,
+    U,
+    V,
 )
 from fdspec.kernels.walk import WORK_SHAPE, begin, walk
 
@@ -76,7 +90,33 @@ def rest_lane(p, lane):
 
 
 @inner
-def run_lanes(p, shelf, states, count, ground, dt, parts, energy, certify, work):
+def see_crest(p, lane, plan, ground, rate, work):
+    """Look for the floor's extrema inside a quiet step of one lane and put its peaks right."""
+    phase = p[PHASE * WIDTH + lane]
+    start = Motion(p[U * WIDTH + lane], p[V * WIDTH + lane], 0.0, 0.0)
+    end = Motion(p[END_U * WIDTH + lane], p[END_V * WIDTH + lane], 0.0, 0.0)
+    peaks = Peaks(
+        p[END_A * WIDTH + lane],
+        p[END_X * WIDTH + lane],
+        p[END_W * WIDTH + lane],
+        p[END_S * WIDTH + lane],
+    )
+    if phase == STICK:
+        base = p[LIFT * WIDTH + lane] * p[OFFSET * WIDTH + lane]
+        branch, mass, order = plan.stick, plan.mass, plan.stick_order
+    else:
+        base = -phase * p[PUSH_FLOOR * WIDTH + lane]
+        branch, mass, order = plan.floor, 0.0, plan.floor_order
+    force = Force(base - ground, -rate, 0.0, 0.0)
+    peaks = floor_peaks(branch, base, mass, work, int(order), 0.0, start, end, force, plan.step, peaks)
+    p[END_A * WIDTH + lane] = peaks.acceleration
+    p[END_X * WIDTH + lane] = peaks.displacement
+    p[END_W * WIDTH + lane] = peaks.velocity
+    p[END_S * WIDTH + lane] = peaks.shear
+
+
+@inner
+def run_lanes(p, shelf, forms, states, count, ground, dt, parts, energy, certify, work):
     """Take ``count`` lanes, set to their start, through the motion; their states end in ``states``."""
     times = np.empty(0)
     phases = np.empty(0, np.int64)
@@ -98,12 +138,14 @@ def run_lanes(p, shelf, states, count, ground, dt, parts, energy, certify, work)
                 work_lanes(p, step, start, rate)
             if certify:
                 loss_lanes(p, start, rate)
-            if count_alerts(p) == 0:
+            if count_alerts(p) == 0.0:
                 accept_lanes(p, energy, certify)
                 continue
             for lane in range(count):
                 if p[ALERT * WIDTH + lane] > 0.0:
                     take_state(p, lane, states[lane])
+                elif p[CREST * WIDTH + lane] > 0.0:
+                    see_crest(p, lane, take_plan(shelf[lane]), start, rate, work)
             accept_lanes(p, energy, certify)
             for lane in range(count):
                 if p[ALERT * WIDTH + lane] > 0.0:
@@ -111,11 +153,12 @@ def run_lanes(p, shelf, states, count, ground, dt, parts, energy, certify, work)
                     before = s[PHASE] != STICK
                     walk(
                         take_plan(shelf[lane]),
-                        take_losses(shelf[lane]),
+                        forms[lane],
                         s,
                         0.0,
                         start,
                         rate,
+                        energy,
                         certify,
                         work,
                         times,
@@ -170,6 +213,7 @@ def sweep_columns(storeys, slip_force, kinetic_slip_force, ground, dt, radians, 
     held = np.empty(columns)
     p = np.empty(N_ROWS * WIDTH)
     shelf = np.empty((WIDTH, N_SHELF))
+    forms = np.empty((WIDTH, N_FORMS))
     states = np.empty((WIDTH, N_STATE))
     work = np.empty(WORK_SHAPE)
     waiting = columns
@@ -200,19 +244,17 @@ def sweep_columns(storeys, slip_force, kinetic_slip_force, ground, dt, radians, 
                     kinetic = kinetic_slip_force[force[first + count]]
                 s = storeys[i]
                 scheme = plan(Storey(s[0], s[1], s[2], s[3], s[4], s[5], limit, kinetic), dt / here, radians)
-                forms = losses(scheme, certify)
-                stride = no_loss()
                 if certify:
-                    stride = step_loss(scheme.floor.g, scheme.floor.w2, scheme.step)
-                put_plan(shelf[count], scheme, forms)
-                put_lane(p, count, scheme, forms, stride, certify)
+                    put_losses(scheme, forms[count])
+                put_plan(shelf[count], scheme)
+                put_lane(p, count, scheme, forms[count], certify)
                 begin(scheme, Motion(0.0, 0.0, 0.0, 0.0), states[count])
                 put_state(p, count, states[count])
                 count += 1
             for lane in range(count, WIDTH):
-                put_lane(p, lane, scheme, forms, stride, certify)
+                put_lane(p, lane, scheme, forms[0], certify)
                 rest_lane(p, lane)
-            run_lanes(p, shelf, states, count, ground, dt, here, energy, certify, work)
+            run_lanes(p, shelf, forms, states, count, ground, dt, here, energy, certify, work)
             for lane in range(count):
                 storey = take_plan(shelf[lane]).storey
                 if sliding:

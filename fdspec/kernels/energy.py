@@ -2,36 +2,55 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Final
 
 from fdspec.jit import inlined, inner
 from fdspec.kernels.oscillator import StepLoss
-from fdspec.kernels.quadrature import no_loss, series_area, series_square, step_loss
+from fdspec.kernels.quadrature import series_area, series_square, step_loss
 from fdspec.kernels.roots import value_slope
 from fdspec.kernels.types import BRACE, FLOOR, STICK
 
 
-class Losses(NamedTuple):
-    """Quadratic forms of the viscous work over whole pieces of a plan."""
+STICK_FORM: Final = 0
+FLOOR_FORM: Final = 10
+BRACE_FORM: Final = 20
+STRIDE_FORM: Final = 30
+N_FORMS: Final = 40
+"""Places of the quadratic forms of the viscous work: over a whole piece of stick; over one of slip, of floor
+and brace; of the floor over a whole step of slip."""
 
-    stick: StepLoss
-    floor: StepLoss
-    brace: StepLoss
+
+@inlined
+def loss_at(forms, at):
+    """Take a quadratic form from its place."""
+    return StepLoss(
+        forms[at],
+        forms[at + 1],
+        forms[at + 2],
+        forms[at + 3],
+        forms[at + 4],
+        forms[at + 5],
+        forms[at + 6],
+        forms[at + 7],
+        forms[at + 8],
+        forms[at + 9],
+    )
 
 
 @inner
-def losses(plan, certify):
-    """Work out the viscous forms, or nothing where they are not asked for."""
-    if not certify:
-        return Losses(no_loss(), no_loss(), no_loss())
-    brace = no_loss()
-    if plan.storey.brace_damping > 0.0:
-        brace = step_loss(plan.brace.g, plan.brace.w2, plan.slip_step)
-    return Losses(
-        step_loss(plan.stick.g, plan.stick.w2, plan.step),
-        step_loss(plan.floor.g, plan.floor.w2, plan.slip_step),
-        brace,
+def put_losses(plan, forms):
+    """Work out the viscous forms of a plan."""
+    stick, floor, brace = plan.stick, plan.floor, plan.brace
+    at = (STICK_FORM, FLOOR_FORM, BRACE_FORM, STRIDE_FORM)
+    loss = (
+        step_loss(stick.g, stick.w2, plan.step),
+        step_loss(floor.g, floor.w2, plan.slip_step),
+        step_loss(brace.g, brace.w2, plan.slip_step),
+        step_loss(floor.g, floor.w2, plan.step),
     )
+    for j in range(4):
+        for k in range(10):
+            forms[at[j] + k] = loss[j][k]
 
 
 @inlined

@@ -15,8 +15,13 @@ from fdspec.jit import inlined, inner
 SERIES_RADIANS = 1.0
 """Below this phase the closed form loses digits to cancellation, and the series is short."""
 
+SIXTH = 1.0 / 6.0
+
 TERMS = 30
 """Length of coefficient arrays: order 28 is rounding at 2 radians, the largest step searched."""
+
+INVERSE = (0.0, *(1.0 / k for k in range(1, TERMS + 1)))
+"""1/k: a division costs as much as four products."""
 
 
 class StepMap(NamedTuple):
@@ -81,9 +86,14 @@ def expand(c, n, x, v, g, w2, p0, p1, h):
     c[0] = x
     c[1] = v * h
     c[2] = 0.5 * (p0 * h * h - gh * c[1] - wh * x)
-    c[3] = (p1 * h * h * h - gh * 2.0 * c[2] - wh * c[1]) / 6.0
+    c[3] = (p1 * h * h * h - gh * 2.0 * c[2] - wh * c[1]) * SIXTH
+    older = c[2]
+    old = c[3]
     for k in range(4, n + 1):
-        c[k] = -(gh * (k - 1) * c[k - 1] + wh * c[k - 2]) / (k * (k - 1))
+        term = -(gh * INVERSE[k] * old + wh * (INVERSE[k] * INVERSE[k - 1]) * older)
+        c[k] = term
+        older = old
+        old = term
 
 
 @inner

@@ -17,6 +17,7 @@ from __future__ import annotations
 import math
 
 from fdspec.jit import inlined, inner
+from fdspec.kernels.energy import STICK_FORM, STRIDE_FORM
 from fdspec.kernels.oscillator import step_map
 from fdspec.kernels.types import (
     INPUT,
@@ -45,10 +46,10 @@ TAIL = 1.0 / 288.0
 
 # Rows behind the state: where a step would lead, and whether a lane must walk it.
 _AT = N_STATE
-END_U, END_V, END_D, END_E, END_A, END_X, END_W, END_S, END_INPUT, END_VISCOUS, ALERT, HELD = range(
-    _AT, _AT + 12
+END_U, END_V, END_D, END_E, END_A, END_X, END_W, END_S, END_INPUT, END_VISCOUS, ALERT, CREST, HELD = range(
+    _AT, _AT + 13
 )
-_AT += 12
+_AT += 13
 # Constants of the storey.
 LIMIT, PUSH_FLOOR, PUSH_BRACE, LIFT, MASS, FLOOR_MASS, BRACE_MASS, LIGHT, MUST_WALK = range(_AT, _AT + 9)
 _AT += 9
@@ -115,10 +116,10 @@ def put_map(p, row, lane, to):
 
 
 @inner
-def put_loss(p, row, lane, of):
+def put_loss(p, row, lane, forms, place):
     """Store a quadratic form, the terms off its diagonal doubled."""
     for k in range(10):
-        put(p, row + k, lane, of[k] if k == 0 or k == 4 or k == 7 or k == 9 else 2.0 * of[k])
+        put(p, row + k, lane, forms[place + k] * (1.0 if k == 0 or k == 4 or k == 7 or k == 9 else 2.0))
 
 
 @inner
@@ -137,7 +138,7 @@ def put_branch(p, row, lane, branch, h):
 
 
 @inner
-def put_lane(p, lane, plan, losses, stride_loss, certify):
+def put_lane(p, lane, plan, forms, certify):
     """Store the constants of a plan."""
     storey = plan.storey
     h = plan.step
@@ -175,8 +176,9 @@ def put_lane(p, lane, plan, losses, stride_loss, certify):
     put_map(p, S_MAP, lane, plan.stick_map)
     put_map(p, F_MAP, lane, step_map(plan.floor.g, plan.floor.w2, h))
     put_map(p, B_MAP, lane, step_map(brace.g, brace.w2, h))
-    put_loss(p, S_LOSS, lane, losses.stick)
-    put_loss(p, F_LOSS, lane, stride_loss)
+    if certify:
+        put_loss(p, S_LOSS, lane, forms, STICK_FORM)
+        put_loss(p, F_LOSS, lane, forms, STRIDE_FORM)
     put(p, S_DAMP, lane, storey.floor_damping + storey.brace_damping)
     put(p, F_DAMP, lane, storey.floor_damping)
     put(p, HELD, lane, 0.0)
@@ -184,7 +186,7 @@ def put_lane(p, lane, plan, losses, stride_loss, certify):
 
 @inner
 def stick_lanes(p, h, ground, rate):
-    """Advance every lane by a step as if it stuck; ALERT where it may slip or a peak may pass.
+    """Advance every lane by a step as if it stuck; ALERT where it may slip, CREST where a peak may pass.
 
     HELD keeps the largest reaction for which the bounds leave room: above it no slip force is reached.
     """
@@ -227,9 +229,9 @@ def stick_lanes(p, h, ground, rate):
         crest_q += swing * at(p, S_TAIL_Q, lane)
         alert = abs(at(p, TOUCHING, lane))
         alert += 1.0 if held >= at(p, LIMIT, lane) else 0.0
-        alert += 1.0 if crest_q > min(top_a, top_s * at(p, LIGHT, lane)) else 0.0
-        alert += 1.0 if crest_u > top_u else 0.0
-        alert += 1.0 if crest_v > top_v else 0.0
+        peak = 1.0 if crest_q > min(top_a, top_s * at(p, LIGHT, lane)) else 0.0
+        peak += 1.0 if crest_u > top_u else 0.0
+        peak += 1.0 if crest_v > top_v else 0.0
         p[END_U * WIDTH + lane] = u1
         p[END_V * WIDTH + lane] = v1
         p[END_D * WIDTH + lane] = u1 - offset
@@ -239,12 +241,13 @@ def stick_lanes(p, h, ground, rate):
         p[END_W * WIDTH + lane] = top_v
         p[END_S * WIDTH + lane] = top_s
         p[ALERT * WIDTH + lane] = alert
+        p[CREST * WIDTH + lane] = peak
         p[HELD * WIDTH + lane] = max(at(p, HELD, lane), held)
 
 
 @inner
 def slip_lanes(p, h, ground, rate):
-    """Advance every slipping lane by a step; ALERT where it may stop or a peak may pass."""
+    """Advance every slipping lane by a step; ALERT where it may stop, CREST where a peak of the floor may pass."""
     third = h * THIRD
     ground_end = ground + rate * h
     steep = abs(rate)
@@ -295,10 +298,10 @@ def slip_lanes(p, h, ground, rate):
         alert = at(p, MUST_WALK, lane)
         alert += 1.0 if at(p, KICK, lane) >= 0.0 else 0.0
         alert += 1.0 if slowest <= 0.0 else 0.0
-        alert += 1.0 if crest_q > top_a else 0.0
-        alert += 1.0 if crest_u > top_u else 0.0
-        alert += 1.0 if crest_v > top_v else 0.0
         alert += 1.0 if crest_s > shear else 0.0
+        peak = 1.0 if crest_q > top_a else 0.0
+        peak += 1.0 if crest_u > top_u else 0.0
+        peak += 1.0 if crest_v > top_v else 0.0
         p[END_U * WIDTH + lane] = u1 if slips else at(p, END_U, lane)
         p[END_V * WIDTH + lane] = v1 if slips else at(p, END_V, lane)
         p[END_D * WIDTH + lane] = d1 if slips else at(p, END_D, lane)
@@ -308,6 +311,7 @@ def slip_lanes(p, h, ground, rate):
         p[END_W * WIDTH + lane] = top_v if slips else at(p, END_W, lane)
         p[END_S * WIDTH + lane] = shear if slips else at(p, END_S, lane)
         p[ALERT * WIDTH + lane] = alert if slips else at(p, ALERT, lane)
+        p[CREST * WIDTH + lane] = peak if slips else at(p, CREST, lane)
 
 
 @inner
@@ -350,10 +354,10 @@ def loss_lanes(p, ground, rate):
 
 @inner
 def count_alerts(p):
-    """Number of lanes that must walk this step by themselves."""
+    """How many reasons there are to look at single lanes in this step."""
     alerts = 0.0
     for lane in range(WIDTH):
-        alerts = max(alerts, at(p, ALERT, lane))
+        alerts += at(p, ALERT, lane) + at(p, CREST, lane)
     return alerts
 
 

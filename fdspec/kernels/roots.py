@@ -5,8 +5,9 @@ p(x) = sum c[k] x^k of the fraction x of the step.  Signs at the two ends say li
 sliding velocity of a light brace returns close to zero once in every brace period and often
 touches it between two ends.  So every interval is cleared by a bound or taken apart:
 
-- the cubic through values and slopes at both ends errs by at most
-  max|p''''| w^4 / 384, and lies within its four Bezier ordinates;
+- the cubic through values and slopes at both ends of [x, x + w] lies within its four Bezier
+  ordinates, and its error falls to zero at both ends as fast as the weights of the inner two:
+  where the ends are positive and the inner ordinates at least max|p''''| w^4 / 288, p is positive;
 - where the curvature provably keeps one sign, the extremum in between is found by Newton's method
   and its sign is looked at;
 - otherwise the interval is halved.
@@ -22,22 +23,42 @@ from fdspec.jit import inlined, inner
 NO_ROOT = 2.0
 """Returned where there is no root in [0, 1]."""
 
+TAIL = 1.0 / 288.0
+"""Weight of a bound on the fourth derivative against the inner Bezier ordinates."""
+
 SMALLEST_INTERVAL = 2.0**-40
 """Where an interval this short is still undecided, values at its ends decide: p is then zero to rounding."""
 
 NEWTON_STEPS = 60
-"""Newton needs 3 to 6; the bracket halves at least every second step, so 60 always suffice."""
+"""Newton needs 3 to 6; a step that leaves the bracket halves it, so this many always suffice."""
+
+CLOSE = 1e-9
+"""A Newton step this short is followed by one more and then by none: the error left is its square."""
 
 
 @inner
 def value_slope(c, lo, n, x):
-    """Value and slope at x of q(x) = sum over k = lo..n of c[k] x^(k - lo)."""
-    value = c[n]
-    slope = 0.0
-    for k in range(n - 1, lo - 1, -1):
-        slope = slope * x + value
-        value = value * x + c[k]
-    return value, slope
+    """Value and slope at x of q(x) = sum over k = lo..n of c[k] x^(k - lo).
+
+    Even and odd powers apart, q = E(x^2) + x O(x^2): two short chains of arithmetic in place of a long one.
+    """
+    square = x * x
+    k = n
+    odd = 0.0
+    if (n - lo) & 1:
+        odd = c[n]
+        k = n - 1
+    even = c[k]
+    even_slope = 0.0
+    odd_slope = 0.0
+    k -= 2
+    while k >= lo:
+        odd_slope = odd_slope * square + odd
+        even_slope = even_slope * square + even
+        odd = odd * square + c[k + 1]
+        even = even * square + c[k]
+        k -= 2
+    return even + x * odd, 2.0 * x * (even_slope + x * odd_slope) + odd
 
 
 @inner
@@ -65,7 +86,7 @@ def clears(start, start_rise, end, end_rise, fourth):
     Values at both ends, slopes times the step, and a bound on the fourth derivative times step^4.
     """
     inside = min(start + start_rise / 3.0, end - end_rise / 3.0)
-    return start > 0.0 and end > 0.0 and inside >= fourth / 288.0
+    return start > 0.0 and end > 0.0 and inside >= fourth * TAIL
 
 
 @inner
@@ -78,12 +99,12 @@ def fourth_bound(c, lo, n):
 
 
 @inner
-def locate_turn(c, lo, n, sign, a, b):
+def locate_turn(c, lo, n, sign, a, b, slope_a, slope_b):
     """The zero of q' in [a, b] where sign q'(a) < 0 < sign q'(b) and q'' keeps one sign."""
-    x = 0.5 * (a + b)
+    x = a + (b - a) * slope_a / (slope_a - slope_b)
+    close = False
     for _ in range(NEWTON_STEPS):
-        _, slope = value_slope(c, lo, n, x)
-        slope *= sign
+        slope = sign * value_slope(c, lo, n, x)[1]
         if slope < 0.0:
             a = x
         elif slope > 0.0:
@@ -92,18 +113,21 @@ def locate_turn(c, lo, n, sign, a, b):
             break
         bend = sign * curvature(c, lo, n, x)
         step = x - slope / bend if bend != 0.0 else a
-        if not a < step < b:
+        if not a <= step <= b:
             step = 0.5 * (a + b)
-        if abs(step - x) <= 1e-16:
-            break
+        moved = abs(step - x)
         x = step
+        if close or moved == 0.0:
+            break
+        close = moved <= CLOSE
     return x
 
 
 @inner
-def locate_root(c, lo, n, sign, a, b):
+def locate_root(c, lo, n, sign, a, b, height_a, height_b):
     """The root of sign q in [a, b] where sign q(a) > 0 >= sign q(b) and it is the only one."""
-    x = 0.5 * (a + b)
+    x = a + (b - a) * height_a / (height_a - height_b)
+    close = False
     for _ in range(NEWTON_STEPS):
         height, slope = value_slope(c, lo, n, x)
         height *= sign
@@ -117,10 +141,11 @@ def locate_root(c, lo, n, sign, a, b):
         step = x - height / slope if slope != 0.0 else a
         if not a <= step <= b:
             step = 0.5 * (a + b)
-        if abs(step - x) <= 1e-16:
-            x = step
-            break
+        moved = abs(step - x)
         x = step
+        if close or moved == 0.0:
+            break
+        close = moved <= CLOSE
     return x
 
 
@@ -152,22 +177,22 @@ def first_root(c, lo, n, sign):
         height_y *= sign
         slope_y *= sign
         inside = min(height + w * slope / 3.0, height_y - w * slope_y / 3.0)
-        if height_y <= 0.0 or inside < fourth * w**4 / 288.0:
+        if height_y <= 0.0 or inside < fourth * w**4 * TAIL:
             bend = sign * curvature(c, lo, n, x)
             bend_y = sign * curvature(c, lo, n, y)
             margin = fourth * w * w / 8.0
             if max(bend, bend_y) + margin < 0.0:
                 if height_y <= 0.0:
-                    return locate_root(c, lo, n, sign, x, y)
+                    return locate_root(c, lo, n, sign, x, y, height, height_y)
             elif min(bend, bend_y) - margin > 0.0:
                 if slope < 0.0:
                     bottom = y
                     height_bottom = height_y
                     if slope_y > 0.0:
-                        bottom = locate_turn(c, lo, n, sign, x, y)
+                        bottom = locate_turn(c, lo, n, sign, x, y, slope, slope_y)
                         height_bottom = sign * value_slope(c, lo, n, bottom)[0]
                     if height_bottom <= 0.0:
-                        return locate_root(c, lo, n, sign, x, bottom)
+                        return locate_root(c, lo, n, sign, x, bottom, height, height_bottom)
             elif w <= SMALLEST_INTERVAL:
                 if height_y <= 0.0:
                     return y
@@ -182,33 +207,36 @@ def first_root(c, lo, n, sign):
 
 
 @inner
-def largest(c, n, sign, best):
-    """The greater of ``best`` and the maximum of sign p(x) over [0, 1]."""
+def largest(c, n, sign, end, end_slope, fourth, best):
+    """The greater of ``best`` and the maximum of sign p(x) over [0, 1].
+
+    end, end_slope: value and slope of p at 1; fourth: a bound on |p''''|.
+    """
     x = 0.0
     height = sign * c[0]
     slope = sign * c[1]
-    end, _ = value_slope(c, 0, n, 1.0)
     best = max(best, max(height, sign * end))
-    fourth = fourth_bound(c, 0, n)
     w = 1.0
     while x < 1.0:
         if w >= 1.0 - x:
             w = 1.0 - x
             y = 1.0
+            height_y = end
+            slope_y = end_slope
         else:
             y = x + w
-        height_y, slope_y = value_slope(c, 0, n, y)
+            height_y, slope_y = value_slope(c, 0, n, y)
         height_y *= sign
         slope_y *= sign
         best = max(best, height_y)
         inside = max(height + w * slope / 3.0, height_y - w * slope_y / 3.0)
-        if inside + fourth * w**4 / 288.0 > best:
+        if inside + fourth * w**4 * TAIL > best:
             bend = sign * curvature(c, 0, n, x)
             bend_y = sign * curvature(c, 0, n, y)
             margin = fourth * w * w / 8.0
             if max(bend, bend_y) + margin < 0.0:
                 if slope > 0.0 > slope_y:
-                    top = locate_turn(c, 0, n, -sign, x, y)
+                    top = locate_turn(c, 0, n, -sign, x, y, -slope, -slope_y)
                     best = max(best, sign * value_slope(c, 0, n, top)[0])
             elif min(bend, bend_y) - margin <= 0.0 and w > SMALLEST_INTERVAL:
                 w *= 0.5
@@ -223,4 +251,7 @@ def largest(c, n, sign, best):
 @inner
 def largest_magnitude(c, n, best):
     """The greater of ``best`` and the maximum of |p(x)| over [0, 1]."""
-    return largest(c, n, -1.0, largest(c, n, 1.0, best))
+    fourth = fourth_bound(c, 0, n)
+    end, end_slope = value_slope(c, 0, n, 1.0)
+    best = largest(c, n, 1.0, end, end_slope, fourth, best)
+    return largest(c, n, -1.0, end, end_slope, fourth, best)

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from fdspec.jit import inlined, inner
-from fdspec.kernels.energy import Losses
-from fdspec.kernels.oscillator import StepLoss, StepMap
+from fdspec.kernels.oscillator import StepMap
 from fdspec.kernels.plan import Branch, Plan
 from fdspec.kernels.types import Storey
 
-_STOREY, _STICK, _FLOOR, _BRACE, _SCALARS, _STICK_MAP, _FLOOR_MAP, _BRACE_MAP = 0, 8, 13, 18, 23, 33, 45, 57
-_LOSSES = 69
-N_SHELF = 99
-"""Numbers of a plan and its losses."""
+_STOREY, _STICK, _FLOOR, _BRACE, _SCALARS, _STICK_MAP, _FLOOR_MAP, _BRACE_MAP = 0, 8, 13, 18, 23, 34, 46, 58
+N_SHELF = 70
+"""Numbers of a plan."""
 
 
 @inner
@@ -46,26 +44,9 @@ def map_at(row, at):
     )
 
 
-@inlined
-def loss_at(row, at):
-    """Take a StepLoss from the row."""
-    return StepLoss(
-        row[at],
-        row[at + 1],
-        row[at + 2],
-        row[at + 3],
-        row[at + 4],
-        row[at + 5],
-        row[at + 6],
-        row[at + 7],
-        row[at + 8],
-        row[at + 9],
-    )
-
-
 @inner
-def put_plan(row, plan, losses):
-    """Put a plan and its losses away."""
+def put_plan(row, plan):
+    """Put a plan away."""
     put_numbers(row, _STOREY, plan.storey)
     put_numbers(row, _STICK, plan.stick)
     put_numbers(row, _FLOOR, plan.floor)
@@ -81,14 +62,12 @@ def put_plan(row, plan, losses):
         plan.slip_step,
         plan.stick_order,
         plan.slip_order,
+        plan.floor_order,
     )
     put_numbers(row, _SCALARS, scalars)
     put_numbers(row, _STICK_MAP, plan.stick_map)
     put_numbers(row, _FLOOR_MAP, plan.floor_map)
     put_numbers(row, _BRACE_MAP, plan.brace_map)
-    put_numbers(row, _LOSSES, losses.stick)
-    put_numbers(row, _LOSSES + 10, losses.floor)
-    put_numbers(row, _LOSSES + 20, losses.brace)
 
 
 @inlined
@@ -110,13 +89,8 @@ def take_plan(row):
         row[at + 7],
         row[at + 8],
         row[at + 9],
+        row[at + 10],
         map_at(row, _STICK_MAP),
         map_at(row, _FLOOR_MAP),
         map_at(row, _BRACE_MAP),
     )
-
-
-@inlined
-def take_losses(row):
-    """Take the losses up again."""
-    return Losses(loss_at(row, _LOSSES), loss_at(row, _LOSSES + 10), loss_at(row, _LOSSES + 20))

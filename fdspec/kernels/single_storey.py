@@ -6,7 +6,7 @@ import numpy as np
 from numba import types
 
 from fdspec.jit import entry, float1d, float2d, ground1d, int1d, record_of
-from fdspec.kernels.energy import losses
+from fdspec.kernels.energy import N_FORMS, put_losses
 from fdspec.kernels.plan import plan, steps_per_sample
 from fdspec.kernels.sdof import history
 from fdspec.kernels.types import N_STATE, Motion, Storey
@@ -35,7 +35,8 @@ def integrate(storey, ground, dt, free_steps, radians, start, times, phases, dt_
     """Integrate one history; arguments as in :func:`fdspec.kernels.sdof.history`."""
     parts = steps_per_sample(storey, dt, radians)
     scheme = plan(storey, dt / parts, radians)
-    forms = losses(scheme, True)
+    forms = np.empty(N_FORMS)
+    put_losses(scheme, forms)
     s = np.empty(N_STATE)
     work = np.empty(WORK_SHAPE)
     history(

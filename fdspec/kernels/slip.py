@@ -5,28 +5,21 @@ Study, equations (5) to (7).
 
 from __future__ import annotations
 
-import math
-
 from fdspec.jit import inlined, inner
-from fdspec.kernels.bounds import crest, relative_acceleration, swing, velocity_series
-from fdspec.kernels.oscillator import expand
+from fdspec.kernels.bounds import crest, floor_fourths, floor_peaks, ready, relative_acceleration, swing
 from fdspec.kernels.roots import clears, first_root, largest_magnitude
 from fdspec.kernels.types import BRACE, FLOOR, SEARCH, Peaks
 
 
 @inlined
-def slip_fourths(plan, motion, force, h):
-    """Bounds on h^4 times fourth derivatives over the piece: floor u and v, brace d and e."""
-    a = relative_acceleration(plan.floor, motion.u, motion.v, force.p0)
-    b = relative_acceleration(plan.brace, motion.d, motion.e, force.b0)
-    theta = plan.floor.rate * h
+def brace_fourths(plan, motion, b, force, h):
+    """Bounds on h^4 times the fourth derivative of the brace's displacement and velocity over a piece."""
     phi = plan.brace.rate * h
-    cube = swing(plan.floor, motion.v, a, force.p1) * theta * theta * theta
     if plan.brace.slowness > 0.0:
         ring = swing(plan.brace, motion.e, b, force.b1) * phi * phi * phi
     else:
         ring = abs(motion.e) * phi * phi * phi
-    return cube * h, cube * theta, ring * h, ring * phi
+    return ring * h, ring * phi
 
 
 @inlined
@@ -36,7 +29,8 @@ def slip_is_quiet(plan, start, end, force, phase, h):
     a1 = relative_acceleration(plan.floor, end.u, end.v, force.p0 + force.p1 * h)
     b0 = relative_acceleration(plan.brace, start.d, start.e, force.b0)
     b1 = relative_acceleration(plan.brace, end.d, end.e, force.b0 + force.b1 * h)
-    _, fourth_v, _, fourth_e = slip_fourths(plan, start, force, h)
+    _, fourth_v = floor_fourths(plan.floor, start.v, a0, force.p1, h)
+    _, fourth_e = brace_fourths(plan, start, b0, force, h)
     return clears(
         phase * (start.v - start.e),
         phase * h * (a0 - b0),
@@ -56,8 +50,9 @@ def search_slip(plan, work, n, h, phase, kick):
     floor = work[FLOOR]
     brace = work[BRACE]
     slide = work[SEARCH]
+    pace = 1.0 / h
     for k in range(n):
-        slide[k] = (k + 1) * (floor[k + 1] - brace[k + 1]) / h
+        slide[k] = (k + 1) * (floor[k + 1] - brace[k + 1]) * pace
     slide[n] = 0.0
     if kick >= 0.0:
         slide[0] = 0.0
@@ -77,43 +72,21 @@ def base_shear(storey, motion):
 
 
 @inlined
-def slip_peaks(plan, work, n, expanded, start, end, force, phase, h, peaks):
-    """Peaks over a slip piece: its end, and extrema inside where bounds leave room for one."""
+def slip_peaks(plan, work, n, share, start, end, force, phase, h, peaks):
+    """Peaks over a slip piece: the floor's, and that of the base shear, in which the brace rings."""
     storey = plan.storey
     f = plan.floor
     b = plan.brace
-    base = -phase * storey.kinetic_slip_force / storey.floor_mass
+    k, c, kd, cd = storey.floor_stiffness, storey.floor_damping, storey.brace_stiffness, storey.brace_damping
     a0 = relative_acceleration(f, start.u, start.v, force.p0)
     a1 = relative_acceleration(f, end.u, end.v, force.p0 + force.p1 * h)
     b0 = relative_acceleration(b, start.d, start.e, force.b0)
     b1 = relative_acceleration(b, end.d, end.e, force.b0 + force.b1 * h)
-    q0 = base - f.g * start.v - f.w2 * start.u
-    q1 = base - f.g * end.v - f.w2 * end.u
+    fourth_u, fourth_v = floor_fourths(f, start.v, a0, force.p1, h)
+    fourth_d, fourth_e = brace_fourths(plan, start, b0, force, h)
     s0 = base_shear(storey, start)
     s1 = base_shear(storey, end)
-    k, c, kd, cd = (
-        storey.floor_stiffness,
-        storey.floor_damping,
-        storey.brace_stiffness,
-        storey.brace_damping,
-    )
-    acceleration = max(peaks.acceleration, abs(q1))
-    displacement = max(peaks.displacement, abs(end.u))
-    velocity = max(peaks.velocity, abs(end.v))
     shear = max(peaks.shear, abs(s1))
-    fourth_u, fourth_v, fourth_d, fourth_e = slip_fourths(plan, start, force, h)
-    see_u = crest(start.u, h * start.v, end.u, h * end.v, fourth_u) > displacement
-    see_v = crest(start.v, h * a0, end.v, h * a1, fourth_v) > velocity
-    see_q = (
-        crest(
-            q0,
-            -h * (f.g * a0 + f.w2 * start.v),
-            q1,
-            -h * (f.g * a1 + f.w2 * end.v),
-            f.g * fourth_v + f.w2 * fourth_u,
-        )
-        > acceleration
-    )
     see_s = (
         crest(
             s0,
@@ -124,72 +97,18 @@ def slip_peaks(plan, work, n, expanded, start, end, force, phase, h, peaks):
         )
         > shear
     )
-    if see_u or see_v or see_q or see_s:
+    if see_s:
         floor = work[FLOOR]
         brace = work[BRACE]
         search = work[SEARCH]
-        if not expanded:
-            expand(floor, n, start.u, start.v, f.g, f.w2, force.p0, force.p1, h)
-            expand(brace, n, start.d, start.e, b.g, b.w2, force.b0, force.b1, h)
-        if see_u:
-            displacement = largest_magnitude(floor, n, displacement)
-        velocity_series(floor, n, h, search)
-        if see_v:
-            velocity = largest_magnitude(search, n, velocity)
-        if see_q:
-            for j in range(n + 1):
-                search[j] = -f.g * search[j] - f.w2 * floor[j]
-            search[0] += base
-            acceleration = largest_magnitude(search, n, acceleration)
-        if see_s:
-            for j in range(n):
-                search[j] = (
-                    k * floor[j] + kd * brace[j] + (j + 1) * (c * floor[j + 1] + cd * brace[j + 1]) / h
-                )
-            search[n] = 0.0
-            shear = largest_magnitude(search, n, shear)
-    return Peaks(acceleration, displacement, velocity, shear)
-
-
-@inlined
-def stride_is_quiet(plan, start, end, force, phase, dt, ground, peaks):
-    """Whether a whole record step of slip surely holds no stop and no new peak inside.
-
-    The brace swings about its quasi-static motion with an amplitude that does not grow, and the
-    slowest sliding is at least the floor's slowest less that swing.  ``ground`` bounds the ground's
-    acceleration (m/s2) on the step.
-    """
-    storey = plan.storey
-    f = plan.floor
-    b = plan.brace
-    a0 = relative_acceleration(f, start.u, start.v, force.p0)
-    a1 = relative_acceleration(f, end.u, end.v, force.p0 + force.p1 * dt)
-    fourth_u, fourth_v, _, _ = slip_fourths(plan, start, force, dt)
-    drift = force.b1 * b.drift
-    ring_rate = relative_acceleration(b, start.d, start.e, force.b0) * b.slowness
-    ring = math.sqrt((start.e - drift) * (start.e - drift) + ring_rate * ring_rate)
-    reach = phase * drift + ring
-    if not clears(
-        phase * start.v - reach,
-        phase * dt * a0,
-        phase * end.v - reach,
-        phase * dt * a1,
-        fourth_v,
-    ):
-        return False
+        ready(floor, n, share, start.u, start.v, f.g, f.w2, force.p0, force.p1, h)
+        ready(brace, n, share, start.d, start.e, b.g, b.w2, force.b0, force.b1, h)
+        share = 1.0
+        pace = 1.0 / h
+        for j in range(n):
+            search[j] = k * floor[j] + kd * brace[j] + (j + 1) * (c * floor[j + 1] + cd * brace[j + 1]) * pace
+        search[n] = 0.0
+        shear = largest_magnitude(search, n, shear)
     base = -phase * storey.kinetic_slip_force / storey.floor_mass
-    top = crest(
-        base - f.g * start.v - f.w2 * start.u,
-        -dt * (f.g * a0 + f.w2 * start.v),
-        base - f.g * end.v - f.w2 * end.u,
-        -dt * (f.g * a1 + f.w2 * end.v),
-        f.g * fourth_v + f.w2 * fourth_u,
-    )
-    # Base shear is the inertia of both masses; the brace's own acceleration is at most ring times omega.
-    shear = storey.floor_mass * top + storey.brace_mass * (ring / b.slowness + ground)
-    return (
-        crest(start.u, dt * start.v, end.u, dt * end.v, fourth_u) <= peaks.displacement
-        and crest(start.v, dt * a0, end.v, dt * a1, fourth_v) <= peaks.velocity
-        and top <= peaks.acceleration
-        and shear <= peaks.shear
-    )
+    moved = floor_peaks(f, base, 0.0, work, n, share, start, end, force, h, peaks)
+    return Peaks(moved.acceleration, moved.displacement, moved.velocity, shear)

@@ -12,7 +12,15 @@ import math
 
 from fdspec.jit import inlined, inner
 from fdspec.kernels.bounds import forcing
-from fdspec.kernels.energy import input_work, series_work, stored_energy
+from fdspec.kernels.energy import (
+    BRACE_FORM,
+    FLOOR_FORM,
+    STICK_FORM,
+    input_work,
+    loss_at,
+    series_work,
+    stored_energy,
+)
 from fdspec.kernels.friction import GOES_ON, phase_after_stop, reaction, sliding_kick
 from fdspec.kernels.oscillator import TERMS, advance, area, expand, square_integral
 from fdspec.kernels.roots import value_slope
@@ -148,23 +156,7 @@ def begin(plan, start, s):
 
 
 @inner
-def shorten(c, n, x):
-    """Rescale the series of a piece to its first part x."""
-    power = 1.0
-    for k in range(1, n + 1):
-        power *= x
-        c[k] *= power
-
-
-@inner
-def end_of_series(c, n, h):
-    """Displacement and velocity at a piece's end."""
-    x, rise = value_slope(c, 0, n, 1.0)
-    return x, rise / h
-
-
-@inner
-def whole_piece_work(plan, losses, phase, motion, end, force, acceleration, rate, h, certify):
+def whole_piece_work(plan, forms, phase, motion, end, force, acceleration, rate, h, certify):
     """Input and viscous work on a whole piece."""
     storey = plan.storey
     lost = 0.0
@@ -172,16 +164,18 @@ def whole_piece_work(plan, losses, phase, motion, end, force, acceleration, rate
         swept = area(plan.stick_map, motion.u, motion.v, force.p0, force.p1)
         if certify:
             lost = (storey.floor_damping + storey.brace_damping) * square_integral(
-                losses.stick, motion.u, motion.v, force.p0, force.p1
+                loss_at(forms, STICK_FORM), motion.u, motion.v, force.p0, force.p1
             )
         return input_work(plan, phase, motion, end, swept, 0.0, acceleration, rate, h), lost
     swept = area(plan.floor_map, motion.u, motion.v, force.p0, force.p1)
     swung = area(plan.brace_map, motion.d, motion.e, force.b0, force.b1)
     if certify:
-        lost = storey.floor_damping * square_integral(losses.floor, motion.u, motion.v, force.p0, force.p1)
+        lost = storey.floor_damping * square_integral(
+            loss_at(forms, FLOOR_FORM), motion.u, motion.v, force.p0, force.p1
+        )
         if storey.brace_damping > 0.0:
             lost += storey.brace_damping * square_integral(
-                losses.brace, motion.d, motion.e, force.b0, force.b1
+                loss_at(forms, BRACE_FORM), motion.d, motion.e, force.b0, force.b1
             )
     return input_work(plan, phase, motion, end, swept, swung, acceleration, rate, h), lost
 
@@ -216,10 +210,10 @@ def write_trace(plan, work, n, phase, offset, anchor, travel, so_far, accelerati
 
 
 @inner
-def walk(plan, losses, s, at, a0, rate, certify, work, times, phases, traces, dt_out, written, reach):
+def walk(plan, forms, s, at, a0, rate, energy, certify, work, times, phases, traces, dt_out, written, reach):
     """Take the state ``s`` over one step; return the number of output rows written so far.
 
-    at: time of the step's start, s; a0, rate: ground acceleration there (m/s2) and its rate (m/s3).
+    forms: the losses of the plan, (N_FORMS,), read where certify.  at: time of the step's start, s; a0, rate: ground acceleration there (m/s2) and its rate (m/s3).
     times, phases: changes of phase, as far as they have room.  traces (m, len(TRACES)): row k is
     written at k dt_out once that is not later than ``reach`` past what has been walked; with m = 0
     nothing is written, else every piece is expanded.
@@ -263,14 +257,15 @@ def walk(plan, losses, s, at, a0, rate, certify, work, times, phases, traces, dt
                 quiet = slip_is_quiet(plan, motion, end, force, phase, h)
             if quiet:
                 if phase == STICK:
-                    peaks = stick_peaks(plan, work, order, False, motion, end, force, offset, h, peaks)
+                    peaks = stick_peaks(plan, work, order, 0.0, motion, end, force, offset, h, peaks)
                 else:
-                    peaks = slip_peaks(plan, work, order, False, motion, end, force, phase, h, peaks)
-                done, lost = whole_piece_work(
-                    plan, losses, phase, motion, end, force, acceleration, rate, h, certify
-                )
-                s[INPUT] += done
-                s[VISCOUS] += lost
+                    peaks = slip_peaks(plan, work, order, 0.0, motion, end, force, phase, h, peaks)
+                if energy:
+                    done, lost = whole_piece_work(
+                        plan, forms, phase, motion, end, force, acceleration, rate, h, certify
+                    )
+                    s[INPUT] += done
+                    s[VISCOUS] += lost
                 motion = end
                 part += 1
                 tau = target
@@ -310,26 +305,27 @@ def walk(plan, losses, s, at, a0, rate, certify, work, times, phases, traces, dt
                     traces[written],
                 )
                 written += 1
-        done, lost = series_work(plan, phase, work, order, acceleration, rate, h, x, certify)
-        s[INPUT] += done
-        s[VISCOUS] += lost
-        if happens:
-            shorten(floor, order, x)
-            if phase != STICK:
-                shorten(brace, order, x)
-            h *= x
-        if h > 0.0:
-            u, v = end_of_series(floor, order, h)
+        if energy:
+            done, lost = series_work(plan, phase, work, order, acceleration, rate, h, x, certify)
+            s[INPUT] += done
+            s[VISCOUS] += lost
+        if x > 0.0:
+            u, rise = value_slope(floor, 0, order, x)
+            v = rise / h
             d = u - offset
             e = v
             if phase != STICK:
-                d, e = end_of_series(brace, order, h)
+                d, rise = value_slope(brace, 0, order, x)
+                e = rise / h
+            h *= x
             end = Motion(u, v, d, e)
             if phase == STICK:
-                peaks = stick_peaks(plan, work, order, True, motion, end, force, offset, h, peaks)
+                peaks = stick_peaks(plan, work, order, x, motion, end, force, offset, h, peaks)
             else:
-                peaks = slip_peaks(plan, work, order, True, motion, end, force, phase, h, peaks)
+                peaks = slip_peaks(plan, work, order, x, motion, end, force, phase, h, peaks)
             motion = end
+        else:
+            h = 0.0
         touching = STICK
         kick = NO_KICK
         if not happens:
