@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 import click
 
@@ -33,16 +33,17 @@ def free(path: str | Path, *, force: bool, suffixes: tuple[str, ...] | None = No
         raise StoreError(f"{path} exists already; name another with -o, or replace it with --force")
     if suffixes is None:
         check_writable(path)
-    else:
-        check_writable(path, suffixes=suffixes)
+        return path
+    if not path.suffix:
+        raise StoreError(f"cannot write {path}: the name should end in {' or '.join(suffixes)}")
+    check_writable(path, suffixes=suffixes)
     return path
 
 
 def save_picture(figure: Figure, path: Path) -> None:
     """Write a figure as a whole or not at all; two runs give the same bytes."""
+    from fdspec.figures import encode
     from fdspec.store.replacing import replacing
 
-    kind = path.suffix.lower().removeprefix(".")
-    undated: dict[str, Any] = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}[kind]
     with replacing(path, suffixes=PICTURES) as part:
-        figure.savefig(part, format=kind, metadata=undated)
+        part.write_bytes(encode(figure, path.suffix.lower().removeprefix(".")))

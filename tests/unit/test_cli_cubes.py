@@ -1,0 +1,122 @@
+"""`fdspec figures` and `fdspec export`: what they write, and what they leave alone."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from fdspec import store
+from fdspec.cli import main
+from fdspec.cli.output import free, save_picture
+from fdspec.errors import StoreError
+from fdspec.figures import plot_acceleration_maps
+from tests.cubes import synthetic_cube
+
+SIGNATURES = {"png": b"\x89PNG", "pdf": b"%PDF", "svg": b"<?xml"}
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Give the working folder, with the cube of two records in it."""
+    monkeypatch.chdir(tmp_path)
+    cube = synthetic_cube(["FSR1", "odd/name"], (2, 3, 4))
+    cube["peak_acceleration"].values[:] = np.abs(cube["peak_acceleration"].values)
+    cube["status"].values[:] = 0
+    store.save(cube, "cube.nc")
+    return tmp_path
+
+
+def refused(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
+    assert main(list(arguments)) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.count("\n") == 1
+    return err
+
+
+def names(folder: Path) -> set[str]:
+    return {path.name for path in folder.iterdir()}
+
+
+@pytest.mark.parametrize("kind", SIGNATURES)
+def test_a_picture_for_each_record(folder: Path, kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["figures", "cube.nc", "-o", "pictures", "--format", kind]) == 0
+    printed = [Path(line) for line in capsys.readouterr().out.splitlines()]
+    wanted = [f"FSR1-acceleration-map.{kind}", f"odd_name-acceleration-map.{kind}"]
+    assert [path.name for path in printed] == wanted
+    assert names(folder / "pictures") == set(wanted)
+    assert all(path.read_bytes().startswith(SIGNATURES[kind]) for path in printed)
+
+
+def test_surfaces_of_one_record(folder: Path) -> None:
+    assert main(["figures", "cube.nc", "--surface", "--record", "FSR1"]) == 0
+    assert names(folder / "figures") == {"FSR1-acceleration-surface.png"}
+
+
+def test_a_picture_that_exists_is_kept_unless_forced(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    mine = folder / "figures" / "odd_name-acceleration-map.png"
+    mine.parent.mkdir()
+    mine.write_text("mine")
+    assert "--force" in refused(capsys, "figures", "cube.nc")
+    assert names(folder / "figures") == {mine.name}
+    assert mine.read_text() == "mine"
+    assert main(["figures", "cube.nc", "--force"]) == 0
+    assert mine.read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_record_that_the_cube_has_not(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    err = refused(capsys, "figures", "cube.nc", "--record", "FSR2")
+    assert "cube.nc has no record 'FSR2'; it has FSR1, odd/name" in err
+    assert names(folder) == {"cube.nc"}
+
+
+def test_a_folder_that_cannot_be_made(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert "cannot make the folder cube.nc" in refused(capsys, "figures", "cube.nc", "-o", "cube.nc")
+
+
+@pytest.mark.parametrize("kind", SIGNATURES)
+def test_two_runs_give_the_same_bytes(folder: Path, kind: str) -> None:
+    cube = store.open("cube.nc")
+    for name in ("a", "b"):
+        save_picture(plot_acceleration_maps(cube, "FSR1"), folder / f"{name}.{kind}")
+    assert (folder / f"a.{kind}").read_bytes() == (folder / f"b.{kind}").read_bytes()
+
+
+def test_a_file_that_is_no_cube(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "text.nc").write_text("nothing")
+    assert "cannot open text.nc" in refused(capsys, "figures", "text.nc")
+    assert "there is no such file" in refused(capsys, "export", "none.nc", "-o", "a.csv")
+
+
+def test_export_writes_one_record(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["export", "cube.nc", "-o", "a.csv", "--record", "FSR1"]) == 0
+    assert capsys.readouterr().out == "a.csv\n"
+    lines = [line for line in (folder / "a.csv").read_text().splitlines() if not line.startswith("#")]
+    assert len(list(csv.DictReader(lines))) == 2 * 3 * 4
+    assert main(["export", "cube.nc", "-o", "a.nc", "--record", "odd/name"]) == 0
+    with xr.open_dataset(folder / "a.nc") as one:
+        assert dict(one.sizes) == {"stiffness_ratio": 2, "pretension": 3, "period": 4}
+
+
+def test_export_wants_one_record_a_known_suffix_and_a_free_name(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert "name one of FSR1, odd/name" in refused(capsys, "export", "cube.nc", "-o", "a.csv")
+    assert ".nc or .csv" in refused(capsys, "export", "cube.nc", "-o", "a.xls")
+    assert "exists already" in refused(capsys, "export", "cube.nc", "-o", "cube.nc", "--record", "FSR1")
+    assert names(folder) == {"cube.nc"}
+
+
+def test_a_name_is_free_only_where_nothing_is_lost(folder: Path) -> None:
+    assert free("new.nc", force=False) == Path("new.nc")
+    assert free("cube.nc", force=True) == Path("cube.nc")
+    with pytest.raises(StoreError, match=r"cube\.nc exists already; name another with -o, or replace it"):
+        free("cube.nc", force=False)
+    with pytest.raises(StoreError, match=r"cannot write picture: the name should end in \.png or \.svg"):
+        free("picture", force=False, suffixes=(".png", ".svg"))
+    with pytest.raises(StoreError, match="there is no folder nowhere"):
+        free("nowhere/cube.nc", force=False)
