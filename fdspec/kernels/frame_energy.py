@@ -13,7 +13,7 @@ from fdspec.kernels.frame import (
     STOREY_DAMPING,
     STOREY_STIFFNESS,
 )
-from fdspec.kernels.lanes import LANES, load, plus, scaled, store
+from fdspec.kernels.lanes import LANES, load, plus, scaled, store_row
 from fdspec.kernels.quadrature import NODES, WEIGHTS
 from fdspec.kernels.taylor import DISPLACEMENT, OFFSET, SLIDING, VELOCITY
 
@@ -36,39 +36,39 @@ def input_work(frame, series, n, h, ground, rise, x):
 def viscous_work(frame, dense_damping, damped, series, n, h, x, velocity, sliding):
     """Work (J) into all dashpots on the first part x of the step.
 
-    velocity and sliding (1 + lanes, 1) are room to work in, zero in their first row.
+    velocity and sliding (1, 1 + lanes) are room to work in, zero in their first column.
     """
     size = frame.shape[1]
     total = 0.0
     for node in range(len(NODES)):
         y = x * NODES[node]
-        speeds_at(series[VELOCITY], size, n, y, velocity)
+        speeds_at(series, VELOCITY, size, n, y, velocity)
         if damped:
-            speeds_at(series[SLIDING], size, n, y, sliding)
+            speeds_at(series, SLIDING, size, n, y, sliding)
         power = 0.0
         for i in range(1, size + 1):
-            drift = velocity[i, 0] - velocity[i - 1, 0]
-            brace = drift - sliding[i, 0]
+            drift = velocity[0, i] - velocity[0, i - 1]
+            brace = drift - sliding[0, i]
             power += frame[STOREY_DAMPING, i - 1] * drift * drift
-            power += frame[GROUND_DAMPING, i - 1] * velocity[i, 0] * velocity[i, 0]
+            power += frame[GROUND_DAMPING, i - 1] * velocity[0, i] * velocity[0, i]
             power += frame[BRACE_DAMPING, i - 1] * brace * brace
         for i in range(dense_damping.shape[0]):
             force = 0.0
             for j in range(size):
-                force += dense_damping[i, j] * velocity[j + 1, 0]
-            power += force * velocity[i + 1, 0]
+                force += dense_damping[i, j] * velocity[0, j + 1]
+            power += force * velocity[0, i + 1]
         total += WEIGHTS[node] * power
     return total * x * h
 
 
 @inner
-def speeds_at(series, size, n, y, out):
-    """Values of all rows at the fraction y."""
+def speeds_at(series, quantity, size, n, y, out):
+    """Values of a quantity's rows at the fraction y."""
     for i in range(1, size + 1, LANES):
-        x = load(series, i, n)
+        x = load(series, quantity, i, n)
         for k in range(n - 1, -1, -1):
-            x = plus(scaled(x, y), load(series, i, k))
-        store(out, i, 0, x)
+            x = plus(scaled(x, y), load(series, quantity, i, k))
+        store_row(out, 0, i, x)
 
 
 @inner

@@ -44,8 +44,7 @@ def begin_slip(frame, kind, phase, fresh, state, tally, i, sign):
         fresh[i] = 1 if static == kinetic else 0
     else:
         fresh[i] = 0
-        u = state[DISPLACEMENT]
-        drift = u[i] - (u[i - 1] if i > 0 else 0.0)
+        drift = state[DISPLACEMENT, i] - (state[DISPLACEMENT, i - 1] if i > 0 else 0.0)
         stiffness = frame[BRACE_STIFFNESS, i]
         before = drift - state[OFFSET, i]
         after = sign * kinetic / stiffness

@@ -52,7 +52,7 @@ def search(
             room = frame[SLIP_FORCE, i] - reach[REACTION_REACH, i]
             if touching[i] != 0 or not abs(series[REACTION, i + 1, 0]) < room:
                 instants[i] = search_stick(
-                    series[REACTION, i + 1],
+                    series,
                     n - 1,
                     frame[SLIP_FORCE, i],
                     room,
@@ -69,7 +69,9 @@ def search(
                 continue
             if fresh[i] > 1:
                 series[SLIDING, i + 1, 1] = 0.0
-            instants[i] = first_root(series[SLIDING, i + 1], 0, n, float(phase[i]))
+            for k in range(n + 1):
+                c[k] = series[SLIDING, i + 1, k]
+            instants[i] = first_root(c, 0, n, float(phase[i]))
         first = min(first, instants[i])
     return first
 
@@ -106,14 +108,14 @@ def slips_on(frame, model, sign, series, reach, state, h, ground, rise, i):
 
 
 @inner
-def search_stick(reaction, n, limit, room, touching, vanishing, c, signs, i):
+def search_stick(series, n, limit, room, touching, vanishing, c, signs, i):
     """Where |reaction| reaches the limit; its direction goes to signs[i]."""
     first = NO_ROOT
     for sign in (1, -1):
-        if sign * reaction[0] < room and touching != sign:
+        if sign * series[REACTION, i + 1, 0] < room and touching != sign:
             continue
         for k in range(n + 1):
-            c[k] = -sign * reaction[k]
+            c[k] = -sign * series[REACTION, i + 1, k]
         c[0] += limit
         if touching == sign:
             for k in range(vanishing):

@@ -54,7 +54,6 @@ from fdspec.kernels.taylor import (
     VELOCITY,
     end_of_step,
     expand,
-    fill_orders,
     follow_drift,
     measure,
     order_for,
@@ -145,15 +144,13 @@ def history(
     tally = np.zeros((TALLY_ROWS, size))
     series = np.zeros((QUANTITIES, lanes + 1, TERMS))
     reach = np.zeros((3, lanes))
-    limits = np.zeros(TERMS)
     c = np.zeros(TERMS)
-    velocity = np.zeros((lanes + 1, 1))
-    sliding = np.zeros((lanes + 1, 1))
+    velocity = np.zeros((1, lanes + 1))
+    sliding = np.zeros((1, lanes + 1))
     stiffness_lanes = in_lanes(dense_stiffness, lanes)
     damping_lanes = in_lanes(dense_damping, lanes)
     damped = is_damped(frame)
     grounded = is_grounded(frame)
-    fill_orders(limits)
     instants = np.zeros(size)
     signs = np.zeros(size, np.int64)
     kind = np.zeros(size, np.int64)
@@ -224,7 +221,7 @@ def history(
         while True:
             parts = max(1, math.ceil((dt - tau) * rate / radians - 1e-9))
             h = (dt - tau) / parts
-            n = order_for(limits, rate * h, extra)
+            n = order_for(rate * h, extra)
             acceleration = a0 + slope * tau
             rise = slope * h
             for quantity in range(4):

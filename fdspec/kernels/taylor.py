@@ -8,6 +8,10 @@ and as many empty ones as fill the last group of four.
 
 from __future__ import annotations
 
+import math
+
+import numpy as np
+
 from fdspec.jit import inner
 from fdspec.kernels.frame import (
     BRACE_DAMPING,
@@ -42,7 +46,6 @@ from fdspec.kernels.lanes import (
     store_row,
     times,
 )
-from fdspec.kernels.roots import value
 from fdspec.kernels.types import STICK
 
 TERMS = 40
@@ -69,29 +72,19 @@ TRUNCATION = 1e-17
 """Size of the first term left out, relative to the first one."""
 
 
-@inner
-def fill_orders(limits):
-    """limits[n]: longest phase (rad) over which a series of order n is complete to rounding."""
-    for n in range(TERMS):
-        low = 0.0
-        high = 16.0
-        for _ in range(60):
-            theta = 0.5 * (low + high)
-            term = 1.0
-            for k in range(1, n + 1):
-                term *= theta / k
-            if term < TRUNCATION:
-                low = theta
-            else:
-                high = theta
-        limits[n] = low
+def longest_phase(order):
+    """Longest phase (rad) whose series is complete to rounding at this order."""
+    return (TRUNCATION * math.factorial(order)) ** (1.0 / order) if order else 0.0
+
+
+LONGEST_PHASE = np.array([longest_phase(n) for n in range(TERMS)])
 
 
 @inner
-def order_for(limits, theta, extra):
+def order_for(theta, extra):
     """Order of the series over the phase theta (rad), with ``extra`` terms more."""
     n = 5
-    while n < TERMS - 1 - extra and limits[n] < theta:
+    while n < TERMS - 1 - extra and LONGEST_PHASE[n] < theta:
         n += 1
     return n + extra
 
@@ -103,12 +96,6 @@ def expand(model, dense_stiffness, dense_damping, damped, grounded, n, h, ground
     ground: the ground's acceleration at the start, m/s2; rise: its change over the step.  The dense
     matrices are (N, lanes) or empty.
     """
-    u = series[DISPLACEMENT]
-    v = series[VELOCITY]
-    o = series[OFFSET]
-    w = series[SLIDING]
-    reaction = series[REACTION]
-    inertia = series[INERTIA]
     groups = model.shape[1] // LANES
     has_stiffness = dense_stiffness.shape[0] > 0
     has_damping = dense_damping.shape[0] > 0
@@ -117,14 +104,14 @@ def expand(model, dense_stiffness, dense_damping, damped, grounded, n, h, ground
         above = 0.0
         for group in range(groups - 1, -1, -1):
             i = LANES * group
-            x = load(u, i + 1, k)
-            y = load(v, i + 1, k)
-            z = load(w, i + 1, k)
-            drift = rise_from(x, u[i, k])
-            brace = times(row(model, SPRING, i), minus(drift, load(o, i + 1, k)))
+            x = load(series, DISPLACEMENT, i + 1, k)
+            y = load(series, VELOCITY, i + 1, k)
+            z = load(series, SLIDING, i + 1, k)
+            drift = rise_from(x, series[DISPLACEMENT, i, k])
+            brace = times(row(model, SPRING, i), minus(drift, load(series, OFFSET, i + 1, k)))
             storey = times(row(model, COLUMNS, i), drift)
             if damped:
-                drift_rate = rise_from(y, v[i, k])
+                drift_rate = rise_from(y, series[VELOCITY, i, k])
                 brace = plus(brace, times(row(model, DASHPOT, i), minus(drift_rate, z)))
                 storey = plus(storey, times(row(model, COLUMN_DASHPOTS, i), drift_rate))
             if k == 0:
@@ -137,10 +124,10 @@ def expand(model, dense_stiffness, dense_damping, damped, grounded, n, h, ground
                 floor = minus(floor, times(row(model, GROUND_DASHPOTS, i), y))
             if has_stiffness:
                 for j in range(dense_stiffness.shape[0]):
-                    floor = minus(floor, scaled(row(dense_stiffness, j, i), u[j + 1, k]))
+                    floor = minus(floor, scaled(row(dense_stiffness, j, i), series[DISPLACEMENT, j + 1, k]))
             if has_damping:
                 for j in range(dense_damping.shape[0]):
-                    floor = minus(floor, scaled(row(dense_damping, j, i), v[j + 1, k]))
+                    floor = minus(floor, scaled(row(dense_damping, j, i), series[VELOCITY, j + 1, k]))
             held = plus(times(row(model, FLOOR_SHARE, i), floor), times(row(model, BRACE_SHARE, i), brace))
             push = minus(floor, times(row(model, HELD, i), brace))
             slide = held
@@ -149,30 +136,28 @@ def expand(model, dense_stiffness, dense_damping, damped, grounded, n, h, ground
                 slide = minus(slide, row(model, FRICTION, i))
             push = times(row(model, COMPLIANCE, i), push)
             slide = times(row(model, SLIDING_COMPLIANCE, i), slide)
-            store(reaction, i + 1, k, held)
-            store(inertia, i + 1, k, push)
+            store(series, REACTION, i + 1, k, held)
+            store(series, INERTIA, i + 1, k, push)
             if k == 0:
                 push = less(push, ground)
             elif k == 1:
                 push = less(push, rise)
-            store(u, i + 1, k + 1, scaled(y, factor))
-            store(v, i + 1, k + 1, scaled(push, factor))
-            store(o, i + 1, k + 1, scaled(z, factor))
-            store(w, i + 1, k + 1, scaled(slide, factor))
+            store(series, DISPLACEMENT, i + 1, k + 1, scaled(y, factor))
+            store(series, VELOCITY, i + 1, k + 1, scaled(push, factor))
+            store(series, OFFSET, i + 1, k + 1, scaled(z, factor))
+            store(series, SLIDING, i + 1, k + 1, scaled(slide, factor))
 
 
 @inner
 def measure(series, n, reach):
     """Fill ``reach``: how far reactions and accelerations may go from their values at the start."""
-    reaction = series[REACTION]
-    inertia = series[INERTIA]
     for i in range(0, reach.shape[1], LANES):
         far = (0.0, 0.0, 0.0, 0.0)
         swing = (0.0, 0.0, 0.0, 0.0)
         jerk = (0.0, 0.0, 0.0, 0.0)
         for k in range(1, n):
-            far = plus(far, magnitude(load(reaction, i + 1, k)))
-            term = magnitude(load(inertia, i + 1, k))
+            far = plus(far, magnitude(load(series, REACTION, i + 1, k)))
+            term = magnitude(load(series, INERTIA, i + 1, k))
             swing = plus(swing, term)
             jerk = plus(jerk, scaled(term, float(k)))
         store_row(reach, REACTION_REACH, i, far)
@@ -186,10 +171,6 @@ def follow_drift(frame, state, fresh, phase, n, h, series, i):
 
     The stretch is s F / k_d, towards which it relaxes at the rate k_d / c_d where there is a dashpot.
     """
-    u = series[DISPLACEMENT]
-    v = series[VELOCITY]
-    o = series[OFFSET]
-    w = series[SLIDING]
     stiffness = frame[BRACE_STIFFNESS, i]
     damping = frame[BRACE_DAMPING, i]
     stretch = phase[i] * frame[KINETIC_SLIP_FORCE, i] / stiffness
@@ -199,48 +180,57 @@ def follow_drift(frame, state, fresh, phase, n, h, series, i):
     if damping > 0.0:
         rate = -stiffness / damping
         decay = rate * h
-        excess = u[i + 1, 0] - u[i, 0] - state[OFFSET, i] - stretch
+        excess = series[DISPLACEMENT, i + 1, 0] - series[DISPLACEMENT, i, 0] - state[OFFSET, i] - stretch
     else:
-        o[i + 1, 0] = u[i + 1, 0] - u[i, 0] - stretch
+        series[OFFSET, i + 1, 0] = series[DISPLACEMENT, i + 1, 0] - series[DISPLACEMENT, i, 0] - stretch
     for k in range(n + 1):
         if k > 0:
             excess *= decay / k
-            o[i + 1, k] = u[i + 1, k] - u[i, k] - excess
-        w[i + 1, k] = v[i + 1, k] - v[i, k] - rate * excess
+            series[OFFSET, i + 1, k] = series[DISPLACEMENT, i + 1, k] - series[DISPLACEMENT, i, k] - excess
+        series[SLIDING, i + 1, k] = series[VELOCITY, i + 1, k] - series[VELOCITY, i, k] - rate * excess
     if fresh[i] > 0:
-        w[i + 1, 0] = 0.0
-        o[i + 1, 1] = 0.0
+        series[SLIDING, i + 1, 0] = 0.0
+        series[OFFSET, i + 1, 1] = 0.0
 
 
 @inner
 def end_of_step(series, phase, n, x, state):
     """Set the state to that at the fraction x of the step."""
     for i in range(state.shape[1]):
-        for quantity in (DISPLACEMENT, VELOCITY, OFFSET, SLIDING):
-            if quantity >= OFFSET and phase[i] == STICK:
-                break
-            state[quantity, i] = value(series[quantity, i + 1], n, x)
+        u = series[DISPLACEMENT, i + 1, n]
+        v = series[VELOCITY, i + 1, n]
+        for k in range(n - 1, -1, -1):
+            u = u * x + series[DISPLACEMENT, i + 1, k]
+            v = v * x + series[VELOCITY, i + 1, k]
+        state[DISPLACEMENT, i] = u
+        state[VELOCITY, i] = v
+        if phase[i] != STICK:
+            o = series[OFFSET, i + 1, n]
+            w = series[SLIDING, i + 1, n]
+            for k in range(n - 1, -1, -1):
+                o = o * x + series[OFFSET, i + 1, k]
+                w = w * x + series[SLIDING, i + 1, k]
+            state[OFFSET, i] = o
+            state[SLIDING, i] = w
 
 
 @inner
 def reaction_now(frame, model, dense_stiffness, dense_damping, state, i):
     """Reaction (N) that storey i would need to stick, its sliding velocity taken as zero."""
     size = frame.shape[1]
-    u = state[DISPLACEMENT]
-    v = state[VELOCITY]
-    drift = u[i] - (u[i - 1] if i > 0 else 0.0)
-    drift_rate = v[i] - (v[i - 1] if i > 0 else 0.0)
+    drift = state[DISPLACEMENT, i] - (state[DISPLACEMENT, i - 1] if i > 0 else 0.0)
+    drift_rate = state[VELOCITY, i] - (state[VELOCITY, i - 1] if i > 0 else 0.0)
     brace = frame[BRACE_STIFFNESS, i] * (drift - state[OFFSET, i]) + frame[BRACE_DAMPING, i] * drift_rate
     floor = (
         -model[COLUMNS, i] * drift
         - model[COLUMN_DASHPOTS, i] * drift_rate
-        - model[GROUND_SPRINGS, i] * u[i]
-        - model[GROUND_DASHPOTS, i] * v[i]
+        - model[GROUND_SPRINGS, i] * state[DISPLACEMENT, i]
+        - model[GROUND_DASHPOTS, i] * state[VELOCITY, i]
     )
     if i + 1 < size:
         j = i + 1
-        drift = u[j] - u[i]
-        drift_rate = v[j] - v[i]
+        drift = state[DISPLACEMENT, j] - state[DISPLACEMENT, i]
+        drift_rate = state[VELOCITY, j] - state[VELOCITY, i]
         floor += (
             model[COLUMNS, j] * drift
             + model[COLUMN_DASHPOTS, j] * drift_rate
@@ -249,7 +239,7 @@ def reaction_now(frame, model, dense_stiffness, dense_damping, state, i):
             + model[GIVEN_FORCE, j]
         )
     for j in range(dense_stiffness.shape[0]):
-        floor -= dense_stiffness[j, i] * u[j]
+        floor -= dense_stiffness[j, i] * state[DISPLACEMENT, j]
     for j in range(dense_damping.shape[0]):
-        floor -= dense_damping[j, i] * v[j]
+        floor -= dense_damping[j, i] * state[VELOCITY, j]
     return model[FLOOR_SHARE, i] * floor + model[BRACE_SHARE, i] * brace
