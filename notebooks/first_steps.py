@@ -30,7 +30,7 @@ import fdspec
 # %%
 motion = fdspec.load_record("FSR1")
 frame = fdspec.Building.single_storey(period=0.5, stiffness_ratio=4, slip_force=50e3)
-history = fdspec.simulate(frame, motion).squeeze("storey")
+history = fdspec.simulate(frame, motion, dt_out=1e-3).squeeze("storey")
 print(f"peak ground acceleration    {motion.pga:5.2f} m/s2")
 print(f"peak absolute acceleration  {history.peak_acceleration.item():5.2f} m/s2")
 print(f"changes of phase            {history.transitions.item():5d}")
