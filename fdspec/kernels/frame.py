@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import math
 
-from fdspec.jit import inner
+from fdspec.jit import bare
 from fdspec.kernels.types import STICK
 
 FLOOR_MASS = 0
@@ -72,7 +72,7 @@ NO_BRACE = 2
 """Kinds of storey."""
 
 
-@inner
+@bare
 def is_damped(frame):
     """Whether any dashpot stands between neighbours."""
     for i in range(frame.shape[1]):
@@ -81,7 +81,7 @@ def is_damped(frame):
     return False
 
 
-@inner
+@bare
 def is_grounded(frame):
     """Whether any spring or dashpot joins a floor to the ground."""
     for i in range(frame.shape[1]):
@@ -90,7 +90,7 @@ def is_grounded(frame):
     return False
 
 
-@inner
+@bare
 def kind_of(frame, i):
     """Whether storey i has a brace with mass, one without, or none."""
     if frame[BRACE_MASS, i] > 0.0:
@@ -98,7 +98,7 @@ def kind_of(frame, i):
     return MASSLESS if frame[BRACE_STIFFNESS, i] > 0.0 else NO_BRACE
 
 
-@inner
+@bare
 def set_phase(frame, model, phase, i):
     """Bring the model's column i in line with the storey's phase."""
     floor = frame[FLOOR_MASS, i]
@@ -124,7 +124,7 @@ def set_phase(frame, model, phase, i):
         model[GIVEN_FORCE, i] = force
 
 
-@inner
+@bare
 def held_rates(frame, dense_stiffness, dense_damping):
     """Bounds on the norms of M^-1 K (1/s2) and M^-1 C (1/s) with every damper stuck.
 
@@ -158,7 +158,7 @@ def held_rates(frame, dense_stiffness, dense_damping):
     return stiffness, damping
 
 
-@inner
+@bare
 def prepare(frame, model, held):
     """Fill what does not change with the phases; ``held`` is the pair of :func:`held_rates`."""
     for i in range(frame.shape[1]):
@@ -183,13 +183,13 @@ def prepare(frame, model, held):
             model[SLIP_RATE, i] = stiffness / damping
 
 
-@inner
+@bare
 def rate_of(stiffness, damping):
     """Largest rate (1/s) of x'' + C x' + K x = 0 with these norms of K and C."""
     return 0.5 * (damping + math.sqrt(damping * damping + 4.0 * stiffness))
 
 
-@inner
+@bare
 def fastest_rate(model, phase, held_rate):
     """Bound on the rate (1/s) of the frame in its present phases."""
     rate = held_rate

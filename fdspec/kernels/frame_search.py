@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from fdspec.jit import inner
+from fdspec.jit import bare
 from fdspec.kernels.frame import (
     BRACE_DAMPING,
     BRACE_MASS,
@@ -33,7 +33,7 @@ SAME_INSTANT = 1e-12
 of a root's place, so storeys that change within it change together."""
 
 
-@inner
+@bare
 def search(
     frame, model, kind, phase, fresh, touching, series, reach, state, n, h, ground, rise, c, instants, signs
 ):
@@ -76,7 +76,7 @@ def search(
     return first
 
 
-@inner
+@bare
 def slips_on(frame, model, sign, series, reach, state, h, ground, rise, i):
     """Whether the sliding velocity surely keeps its sign on the step.
 
@@ -107,7 +107,7 @@ def slips_on(frame, model, sign, series, reach, state, h, ground, rise, i):
     return sign * drift_rate - h * pull > ring
 
 
-@inner
+@bare
 def search_stick(series, n, limit, room, touching, vanishing, c, signs, i):
     """Where |reaction| reaches the limit; its direction goes to signs[i]."""
     first = NO_ROOT

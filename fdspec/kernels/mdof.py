@@ -14,7 +14,7 @@ import math
 import numpy as np
 from numba import types
 
-from fdspec.jit import entry, float1d, float2d, float3d, inner, int1d
+from fdspec.jit import bare, entry, float1d, float2d, float3d, inner, int1d
 from fdspec.kernels.frame import (
     KINETIC_SLIP_FORCE,
     MASSLESS,
@@ -33,22 +33,19 @@ from fdspec.kernels.frame import (
 )
 from fdspec.kernels.frame_energy import (
     input_work,
-    kinetic_energy,
     stored_energy,
-    strain_energy,
     viscous_work,
 )
-from fdspec.kernels.frame_peaks import PEAK_ROWS, raise_peaks, storey_shear
+from fdspec.kernels.frame_peaks import PEAK_ROWS, raise_peaks
 from fdspec.kernels.frame_phase import RELEASE, TALLY_ROWS, begin_slip, end_slip, travel_so_far
 from fdspec.kernels.frame_search import SAME_INSTANT, search
+from fdspec.kernels.frame_traces import write_traces
 from fdspec.kernels.lanes import LANES
-from fdspec.kernels.roots import value
 from fdspec.kernels.taylor import (
     DISPLACEMENT,
-    INERTIA,
     OFFSET,
     QUANTITIES,
-    REACTION,
+    REACH_ROWS,
     SLIDING,
     TERMS,
     VELOCITY,
@@ -94,32 +91,17 @@ COUNTS = 9
 TOTALS = ("transitions", "dissipated_energy", "viscous_energy", "input_energy", "energy_error", "status")
 """Entries of ``totals`` (6,)."""
 
-STOREY_TRACES = (
-    "displacement",
-    "velocity",
-    "acceleration",
-    "storey_shear",
-    "brace_displacement",
-    "brace_velocity",
-    "friction_force",
-    "phase",
-    "slip_travel",
-    "storey_friction_energy",
-)
-"""Columns of ``traces`` (m, 10, N)."""
-
-TOTAL_TRACES = ("input_energy", "viscous_energy", "kinetic_energy", "strain_energy")
-"""Columns of ``energies`` (m, 4)."""
-
 NO_TIME = 1e-13
 """Fraction of a record step that counts as its end."""
 
 
-@inner
+@bare
 def history(
     frame,
     dense_stiffness,
     dense_damping,
+    stiffness_lanes,
+    damping_lanes,
     ground,
     dt,
     free_steps,
@@ -127,42 +109,38 @@ def history(
     start,
     radians,
     extra,
+    model,
+    state,
+    motion,
+    tally,
+    series,
+    reach,
+    speeds,
+    c,
+    instants,
+    signs,
+    kind,
+    phase,
+    fresh,
+    touching,
     times,
     storeys,
     phases,
     dt_out,
     traces,
     energies,
+    peaks,
+    counts,
     by_storey,
     totals,
 ):
-    """Integrate one history; see :func:`integrate`."""
+    """Integrate one history: arguments as in :func:`integrate`, and zeroed room to work in.
+
+    The matrices in lanes have columns of zeros up to a multiple of four.
+    """
     size = frame.shape[1]
-    lanes = LANES * ((size + LANES - 1) // LANES)
-    model = np.zeros((MODEL_ROWS, lanes))
-    state = np.zeros((4, size))
-    tally = np.zeros((TALLY_ROWS, size))
-    series = np.zeros((QUANTITIES, lanes + 1, TERMS))
-    reach = np.zeros((3, lanes))
-    c = np.zeros(TERMS)
-    velocity = np.zeros((1, lanes + 1))
-    sliding = np.zeros((1, lanes + 1))
-    stiffness_lanes = in_lanes(dense_stiffness, lanes)
-    damping_lanes = in_lanes(dense_damping, lanes)
     damped = is_damped(frame)
     grounded = is_grounded(frame)
-    instants = np.zeros(size)
-    signs = np.zeros(size, np.int64)
-    kind = np.zeros(size, np.int64)
-    phase = np.zeros(size, np.int64)
-    fresh = np.zeros(size, np.int64)
-    touching = np.zeros(size, np.int64)
-    for row in range(by_storey.shape[0]):
-        for i in range(size):
-            by_storey[row, i] = 0.0
-    peaks = by_storey[:PEAK_ROWS]
-    counts = by_storey[COUNTS]
-
     held = held_rates(frame, dense_stiffness, dense_damping)
     held_rate = rate_of(held[0], held[1])
     prepare(frame, model, held)
@@ -263,7 +241,7 @@ def history(
                     y = min(max((at - tau) / h, 0.0), done)
                     energies[written, 0] = work_in + input_work(frame, series, n, h, acceleration, rise, y)
                     energies[written, 1] = viscous + viscous_work(
-                        frame, dense_damping, damped, series, n, h, y, velocity, sliding
+                        frame, dense_damping, damped, series, n, h, y, speeds
                     )
                     write_traces(
                         frame,
@@ -275,18 +253,18 @@ def history(
                         y,
                         tally,
                         state,
+                        motion,
                         c,
-                        traces[written],
-                        energies[written],
+                        traces,
+                        energies,
+                        written,
                     )
                     written += 1
             if done > 0.0:
                 raise_peaks(frame, model, series, reach, n, h, done, acceleration, rise, c, peaks)
                 work_in += input_work(frame, series, n, h, acceleration, rise, done)
                 if certify or tracing:
-                    viscous += viscous_work(
-                        frame, dense_damping, damped, series, n, h, done, velocity, sliding
-                    )
+                    viscous += viscous_work(frame, dense_damping, damped, series, n, h, done, speeds)
                 end_of_step(series, phase, n, done, state)
                 for i in range(size):
                     fresh[i] = 0
@@ -365,44 +343,6 @@ def in_lanes(matrix, lanes):
     return wide
 
 
-@inner
-def write_traces(frame, dense_stiffness, phase, series, n, h, y, tally, state, c, trace, energy):
-    """Write the motion at the fraction y of a step, before what happens at its end."""
-    size = frame.shape[1]
-    velocity = np.empty(size)
-    sliding = np.empty(size)
-    u = np.empty(size)
-    offset = np.empty(size)
-    for i in range(size):
-        j = i + 1
-        u[i] = value(series[DISPLACEMENT, j], n, y)
-        velocity[i] = value(series[VELOCITY, j], n, y)
-        offset[i] = state[OFFSET, i]
-        sliding[i] = 0.0
-        if phase[i] != STICK:
-            offset[i] = value(series[OFFSET, j], n, y)
-            sliding[i] = value(series[SLIDING, j], n, y)
-        trace[0, i] = u[i]
-        trace[1, i] = velocity[i]
-        trace[2, i] = value(series[INERTIA, j], n - 1, y)
-        storey_shear(frame, series, n, h, i, c)
-        trace[3, i] = value(c, n - 1, y)
-        trace[4, i] = u[i] - offset[i]
-        trace[5, i] = velocity[i] - sliding[i]
-        force = phase[i] * frame[KINETIC_SLIP_FORCE, i]
-        if phase[i] == STICK:
-            force = value(series[REACTION, j], n - 1, y)
-        trace[6, i] = force
-        trace[7, i] = phase[i]
-        travel = travel_so_far(phase, offset[i], tally, i)
-        trace[8, i] = travel
-        trace[9, i] = tally[RELEASE, i]
-        if travel > 0.0:
-            trace[9, i] += frame[KINETIC_SLIP_FORCE, i] * travel
-    energy[2] = kinetic_energy(frame, velocity, sliding)
-    energy[3] = strain_energy(frame, dense_stiffness, u, offset)
-
-
 @entry(
     types.void(
         given2d,
@@ -458,10 +398,15 @@ def integrate(
     by_storey (len(STOREY_RESULTS), N), totals (len(TOTALS),): results.  viscous_energy and energy_error
     are worked out where ``certify`` says so; traces need the first and cost it.
     """
+    size = frame.shape[1]
+    lanes = LANES * ((size + LANES - 1) // LANES)
+    by_storey[:] = 0.0
     history(
         frame,
         dense_stiffness,
         dense_damping,
+        in_lanes(dense_stiffness, lanes),
+        in_lanes(dense_damping, lanes),
         ground,
         dt,
         free_steps,
@@ -469,12 +414,28 @@ def integrate(
         start,
         radians,
         extra,
+        np.zeros((MODEL_ROWS, lanes)),
+        np.zeros((4, size)),
+        np.zeros((4, size)),
+        np.zeros((TALLY_ROWS, size)),
+        np.zeros((QUANTITIES, lanes + 1, TERMS)),
+        np.zeros((REACH_ROWS, lanes)),
+        np.zeros((2, lanes + 1)),
+        np.zeros(TERMS),
+        np.zeros(size),
+        np.zeros(size, np.int64),
+        np.zeros(size, np.int64),
+        np.zeros(size, np.int64),
+        np.zeros(size, np.int64),
+        np.zeros(size, np.int64),
         times,
         storeys,
         phases,
         dt_out,
         traces,
         energies,
+        by_storey[:PEAK_ROWS],
+        by_storey[COUNTS],
         by_storey,
         totals,
     )

@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from fdspec.jit import inner
+from fdspec.jit import bare
 from fdspec.kernels.frame import (
     BRACE_DAMPING,
     BRACE_SHARE,
@@ -66,6 +66,7 @@ QUANTITIES = 6
 REACTION_REACH = 0
 ACCELERATION_REACH = 1
 JERK_REACH = 2
+REACH_ROWS = 3
 """Rows of ``reach`` (3, lanes): sums over k >= 1 of |R_k| (N), |A_k| (m/s2), k |A_k| (m/s2)."""
 
 TRUNCATION = 1e-17
@@ -80,7 +81,7 @@ def longest_phase(order):
 LONGEST_PHASE = np.array([longest_phase(n) for n in range(TERMS)])
 
 
-@inner
+@bare
 def order_for(theta, extra):
     """Order of the series over the phase theta (rad), with ``extra`` terms more."""
     n = 5
@@ -89,7 +90,7 @@ def order_for(theta, extra):
     return n + extra
 
 
-@inner
+@bare
 def expand(model, dense_stiffness, dense_damping, damped, grounded, n, h, ground, rise, series):
     """Fill the series of order n over the step h (s) from their first terms.
 
@@ -148,7 +149,7 @@ def expand(model, dense_stiffness, dense_damping, damped, grounded, n, h, ground
             store(series, SLIDING, i + 1, k + 1, scaled(slide, factor))
 
 
-@inner
+@bare
 def measure(series, n, reach):
     """Fill ``reach``: how far reactions and accelerations may go from their values at the start."""
     for i in range(0, reach.shape[1], LANES):
@@ -165,7 +166,7 @@ def measure(series, n, reach):
         store_row(reach, JERK_REACH, i, jerk)
 
 
-@inner
+@bare
 def follow_drift(frame, state, fresh, phase, n, h, series, i):
     """Series of the offset of a slipping massless brace: the drift less the brace's own stretch.
 
@@ -193,7 +194,7 @@ def follow_drift(frame, state, fresh, phase, n, h, series, i):
         series[OFFSET, i + 1, 1] = 0.0
 
 
-@inner
+@bare
 def end_of_step(series, phase, n, x, state):
     """Set the state to that at the fraction x of the step."""
     for i in range(state.shape[1]):
@@ -214,7 +215,7 @@ def end_of_step(series, phase, n, x, state):
             state[SLIDING, i] = w
 
 
-@inner
+@bare
 def reaction_now(frame, model, dense_stiffness, dense_damping, state, i):
     """Reaction (N) that storey i would need to stick, its sliding velocity taken as zero."""
     size = frame.shape[1]
