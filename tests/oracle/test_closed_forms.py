@@ -2,7 +2,7 @@
 
 Rigid friction against the ground, which fdspec has no element for, is a brace so heavy and so stiff that it
 moves with the ground: it lags by a_g/omega_d^2, and friction bends it by F/(m_d omega_d^2), both below what
-is asked. Where the ground moves the brace has a critical dashpot, for the first sample's jump would make it ring
+is asked. Where the ground moves the brace has a critical dashpot: the first sample's jump would make it ring
 for ever.
 """
 
