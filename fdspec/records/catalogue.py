@@ -13,6 +13,7 @@ from pathlib import Path
 from fdspec.errors import RecordError
 from fdspec.motion import GroundMotion
 from fdspec.records.folder import records_folder
+from fdspec.records.links import Link, linked
 from fdspec.records.reading import read_record
 from fdspec.units import G
 
@@ -103,8 +104,8 @@ def catalogue_entry(name: str) -> CatalogueEntry:
 def load_record(name: str, scaled: bool = True) -> GroundMotion:
     """Load one of the study's nine records by its name there, such as "FSR1".
 
-    The study's own files cannot be shipped: this is a real record of the same earthquake that stands in, and
-    `source` of the motion says which.
+    The study's own files cannot be shipped: this is a real record of the same earthquake that stands in, or
+    the user's own file once that was linked (`fdspec.records.check`). `source` of the motion says which.
 
     Parameters
     ----------
@@ -117,7 +118,8 @@ def load_record(name: str, scaled: bool = True) -> GroundMotion:
     Raises
     ------
     RecordError
-        When the name is unknown (the text suggests the nearest) or the shipped file was altered.
+        When the name is unknown (the text suggests the nearest), the shipped file was altered, or the linked
+        one is gone or was changed.
 
     Examples
     --------
@@ -126,13 +128,21 @@ def load_record(name: str, scaled: bool = True) -> GroundMotion:
     0.345
     """
     entry = catalogue_entry(name)
-    stand_in = entry.stand_in
-    path = stand_in.path
-    if not path.is_file() or hashlib.sha256(path.read_bytes()).hexdigest() != stand_in.sha256:
-        raise RecordError(f"{path}: the shipped record is missing or was altered: install fdspec again")
-    motion = replace(
-        read_record(path, name=entry.name),
-        event=f"{entry.event} {entry.date.isoformat()}",
-        source=f"stand-in for the study's {entry.name}: {stand_in.origin}",
-    )
+    link = linked(entry.name)
+    motion = _stand_in(entry) if link is None else _own(entry, link)
+    motion = replace(motion, event=f"{entry.event} {entry.date.isoformat()}")
     return motion.scaled_to_pga(entry.pga_g * G) if scaled else motion
+
+
+def _stand_in(entry: CatalogueEntry) -> GroundMotion:
+    path = entry.stand_in.path
+    if not path.is_file() or hashlib.sha256(path.read_bytes()).hexdigest() != entry.stand_in.sha256:
+        raise RecordError(f"{path}: the shipped record is missing or was altered: install fdspec again")
+    source = f"stand-in for the study's {entry.name}: {entry.stand_in.origin}"
+    return replace(read_record(path, name=entry.name), source=source)
+
+
+def _own(entry: CatalogueEntry, link: Link) -> GroundMotion:
+    motion = read_record(link.path, channel=link.channel, name=entry.name)
+    source = f"the user's own {entry.name}: {motion.source}, {motion.station} {motion.component}".strip()
+    return replace(motion, source=f"{source}; SHA-256 {link.sha256}")
