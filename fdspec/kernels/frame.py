@@ -62,7 +62,9 @@ COLUMN_DASHPOTS = 11
 GROUND_SPRINGS = 12
 GROUND_DASHPOTS = 13
 """The frame's own springs and dashpots, as in ``frame``."""
-MODEL_ROWS = 14
+SLOWNESS = 14
+"""sqrt(m_d / k_d), s: the brace's time of a radian."""
+MODEL_ROWS = 15
 """Rows of the ``model`` array (MODEL_ROWS, lanes): what the phases make of the building.  Its columns
 are the storeys and as many empty ones as fill the last group of four."""
 
@@ -175,6 +177,7 @@ def prepare(frame, model, held):
         damping = frame[BRACE_DAMPING, i]
         if brace > 0.0:
             below = frame[FLOOR_MASS, i - 1] if i > 0 else math.inf
+            model[SLOWNESS, i] = math.sqrt(brace / stiffness)
             share = math.sqrt(brace / below)
             k = max(stiffness / brace * (1.0 + share), held[0] + stiffness / brace * share)
             c = max(damping / brace * (1.0 + share), held[1] + damping / brace * share)

@@ -13,6 +13,7 @@ from fdspec.kernels.frame import (
     NO_BRACE,
     PLAIN,
     SLIP_FORCE,
+    SLOWNESS,
 )
 from fdspec.kernels.roots import NO_ROOT, first_root
 from fdspec.kernels.taylor import (
@@ -101,7 +102,7 @@ def slips_on(frame, model, sign, series, reach, state, h, ground, rise, i):
     swing = drift_rate - state[SLIDING, i]
     stretch = drift - state[OFFSET, i]
     kick = (model[FRICTION, i] - stiffness * stretch - frame[BRACE_DAMPING, i] * swing) / mass - below
-    slowness = math.sqrt(mass / stiffness)
+    slowness = model[SLOWNESS, i]
     kick *= slowness
     ring = math.sqrt(swing * swing + kick * kick) + jerk * slowness
     return sign * drift_rate - h * pull > ring

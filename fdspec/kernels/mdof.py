@@ -136,7 +136,7 @@ def history(
 ):
     """Integrate one history: arguments as in :func:`integrate`, and zeroed room to work in.
 
-    The matrices in lanes have columns of zeros up to a multiple of four.
+    The matrices in lanes have zeros up to a multiple of four.
     """
     size = frame.shape[1]
     damped = is_damped(frame)
@@ -334,9 +334,9 @@ def history(
 
 @inner
 def in_lanes(matrix, lanes):
-    """The matrix (N, N) with columns of zeros up to the number of lanes; an empty one as it is."""
+    """The matrix (N, N) with zeros up to (lanes, lanes); an empty one as it is."""
     n = matrix.shape[0]
-    wide = np.zeros((n, lanes if n > 0 else 0))
+    wide = np.zeros((lanes, lanes)) if n > 0 else np.zeros((0, 0))
     for i in range(n):
         for j in range(n):
             wide[i, j] = matrix[i, j]

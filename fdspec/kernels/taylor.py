@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from fdspec.jit import bare
+from fdspec.jit import bare, inlined
 from fdspec.kernels.frame import (
     BRACE_DAMPING,
     BRACE_SHARE,
@@ -69,7 +69,7 @@ JERK_REACH = 2
 REACH_ROWS = 3
 """Rows of ``reach`` (3, lanes): sums over k >= 1 of |R_k| (N), |A_k| (m/s2), k |A_k| (m/s2)."""
 
-TRUNCATION = 1e-17
+TRUNCATION = 1e-16
 """Size of the first term left out, relative to the first one."""
 
 
@@ -90,12 +90,27 @@ def order_for(theta, extra):
     return n + extra
 
 
+@inlined
+def product(matrix, series, quantity, i, k):
+    """Terms i to i + 3 of a dense matrix (lanes, lanes), symmetric, times the coefficients k of a quantity."""
+    total = (0.0, 0.0, 0.0, 0.0)
+    for j in range(0, matrix.shape[0], LANES):
+        x = load(series, quantity, j + 1, k)
+        front = plus(scaled(row(matrix, j, i), x[0]), scaled(row(matrix, j + 1, i), x[1]))
+        back = plus(scaled(row(matrix, j + 2, i), x[2]), scaled(row(matrix, j + 3, i), x[3]))
+        total = plus(total, plus(front, back))
+    return total
+
+
 @bare
 def expand(model, dense_stiffness, dense_damping, damped, grounded, n, h, ground, rise, series):
     """Fill the series of order n over the step h (s) from their first terms.
 
     ground: the ground's acceleration at the start, m/s2; rise: its change over the step.  The dense
-    matrices are (N, lanes) or empty.
+    matrices are (lanes, lanes) or empty.
+
+    Each coefficient waits for the one before it through the dashpots alone, so what they ask for comes
+    last in each sum: the time this loop takes is that of its longest chain.
     """
     groups = model.shape[1] // LANES
     has_stiffness = dense_stiffness.shape[0] > 0
@@ -120,33 +135,38 @@ def expand(model, dense_stiffness, dense_damping, damped, grounded, n, h, ground
             total = plus(storey, brace)
             floor = minus(shifted(total, above), storey)
             above = total[0]
-            if grounded:
-                floor = minus(floor, times(row(model, GROUND_SPRINGS, i), x))
-                floor = minus(floor, times(row(model, GROUND_DASHPOTS, i), y))
             if has_stiffness:
-                for j in range(dense_stiffness.shape[0]):
-                    floor = minus(floor, scaled(row(dense_stiffness, j, i), series[DISPLACEMENT, j + 1, k]))
-            if has_damping:
-                for j in range(dense_damping.shape[0]):
-                    floor = minus(floor, scaled(row(dense_damping, j, i), series[VELOCITY, j + 1, k]))
-            held = plus(times(row(model, FLOOR_SHARE, i), floor), times(row(model, BRACE_SHARE, i), brace))
+                floor = minus(floor, product(dense_stiffness, series, DISPLACEMENT, i, k))
             push = minus(floor, times(row(model, HELD, i), brace))
+            if grounded:
+                pull = times(row(model, GROUND_SPRINGS, i), x)
+                pull = plus(pull, times(row(model, GROUND_DASHPOTS, i), y))
+                push = minus(push, pull)
+                floor = minus(floor, pull)
+            if has_damping:
+                pull = product(dense_damping, series, VELOCITY, i, k)
+                push = minus(push, pull)
+                floor = minus(floor, pull)
+            held = plus(times(row(model, FLOOR_SHARE, i), floor), times(row(model, BRACE_SHARE, i), brace))
             slide = held
             if k == 0:
                 push = minus(push, row(model, FRICTION, i))
                 slide = minus(slide, row(model, FRICTION, i))
-            push = times(row(model, COMPLIANCE, i), push)
-            slide = times(row(model, SLIDING_COMPLIANCE, i), slide)
-            store(series, REACTION, i + 1, k, held)
-            store(series, INERTIA, i + 1, k, push)
+            compliance = row(model, COMPLIANCE, i)
+            inertia = times(push, compliance)
             if k == 0:
-                push = less(push, ground)
+                y_next = scaled(less(inertia, ground), factor)
             elif k == 1:
-                push = less(push, rise)
+                y_next = scaled(less(inertia, rise), factor)
+            else:
+                y_next = times(push, scaled(compliance, factor))
+            store(series, VELOCITY, i + 1, k + 1, y_next)
             store(series, DISPLACEMENT, i + 1, k + 1, scaled(y, factor))
-            store(series, VELOCITY, i + 1, k + 1, scaled(push, factor))
             store(series, OFFSET, i + 1, k + 1, scaled(z, factor))
-            store(series, SLIDING, i + 1, k + 1, scaled(slide, factor))
+            slide = times(slide, scaled(row(model, SLIDING_COMPLIANCE, i), factor))
+            store(series, SLIDING, i + 1, k + 1, slide)
+            store(series, REACTION, i + 1, k, held)
+            store(series, INERTIA, i + 1, k, inertia)
 
 
 @bare
@@ -239,8 +259,8 @@ def reaction_now(frame, model, dense_stiffness, dense_damping, state, i):
             + model[DASHPOT, j] * (drift_rate - state[SLIDING, j])
             + model[GIVEN_FORCE, j]
         )
-    for j in range(dense_stiffness.shape[0]):
+    for j in range(min(size, dense_stiffness.shape[0])):
         floor -= dense_stiffness[j, i] * state[DISPLACEMENT, j]
-    for j in range(dense_damping.shape[0]):
+    for j in range(min(size, dense_damping.shape[0])):
         floor -= dense_damping[j, i] * state[VELOCITY, j]
     return model[FLOOR_SHARE, i] * floor + model[BRACE_SHARE, i] * brace
