@@ -25,6 +25,9 @@ LEVELS = 18
 
 COLUMNS = 4
 
+LETTERS_PER_INCH = 11
+"""Of matplotlib's own font at the titles' size, less a margin."""
+
 
 @dataclass(frozen=True)
 class Acceleration:
@@ -34,7 +37,7 @@ class Acceleration:
     end well.
     """
 
-    title: str
+    title: tuple[str, ...]
     stiffness_ratio: NDArray[np.float64]
     pretension: NDArray[np.float64]
     period: NDArray[np.float64]
@@ -51,8 +54,17 @@ class Acceleration:
     def panels(self) -> tuple[int, int]:
         """Rows and columns of panels, one panel a stiffness ratio."""
         n = self.stiffness_ratio.size
-        columns = min(n, COLUMNS)
-        return math.ceil(n / columns), columns
+        rows = math.ceil(n / COLUMNS)
+        return rows, math.ceil(n / rows)
+
+    def wrapped_title(self, width: float) -> str:
+        """Return the title in lines that fit a figure of this width, in."""
+        lines = [
+            part
+            for line in self.title
+            for part in textwrap.wrap(line, int(LETTERS_PER_INCH * width), break_on_hyphens=False)
+        ]
+        return "\n".join(lines)
 
 
 def of_record(cube: xr.Dataset, record: str) -> Acceleration:
@@ -90,13 +102,13 @@ def of_record(cube: xr.Dataset, record: str) -> Acceleration:
     )
 
 
-def _title(one: xr.Dataset, record: str) -> str:
+def _title(one: xr.Dataset, record: str) -> tuple[str, ...]:
     """Say what is drawn and which record it is really made with."""
     lines = [f"Peak absolute acceleration of the floor, record {record}"]
-    if "source" in one.coords and (source := str(one["source"].item())):
-        lines += textwrap.wrap(source, 110)
+    if "source" in one.coords:
+        lines.append(str(one["source"].item()))
     if "pga" in one.coords:
         factor = one["scale_factor"].item() if "scale_factor" in one.coords else 1.0
         scaled = "" if factor == 1.0 else f", the recorded motion times {factor:.3g}"
         lines.append(f"PGA {one['pga'].item() / G:.3g} g{scaled}")
-    return "\n".join(lines)
+    return tuple(lines)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -129,7 +130,7 @@ def _title(history: xr.Dataset, storey: int) -> str:
     name = str(history["record"].item()) if "record" in history.coords else "a ground motion"
     source = str(history["source"].item()) if "source" in history.coords else ""
     which = f", storey {storey} of {history.sizes['storey']}" if history.sizes["storey"] > 1 else ""
-    return "\n".join(filter(None, (f"Response to {name}{which}", source)))
+    return "\n".join([f"Response to {name}{which}", *textwrap.wrap(source, 115, break_on_hyphens=False)])
 
 
 def _summary(history: xr.Dataset, one: xr.Dataset) -> str:

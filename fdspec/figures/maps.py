@@ -44,7 +44,8 @@ def plot_acceleration_maps(cube: xr.Dataset, record: str) -> Figure:
     """
     data = of_record(cube, record)
     rows, columns = data.panels
-    figure = Figure(figsize=(1.1 + 2.5 * columns, 1.5 + 2.2 * rows), layout="constrained", dpi=150)
+    width = max(6.5, 1.1 + 2.5 * columns)
+    figure = Figure(figsize=(width, 2.0 + 2.2 * rows), layout="constrained", dpi=150)
     axes = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
     for axis in axes.flat[data.stiffness_ratio.size :]:
         axis.remove()
@@ -61,7 +62,7 @@ def plot_acceleration_maps(cube: xr.Dataset, record: str) -> Figure:
         if place.is_last_row() or axes[-1, place.colspan.start].figure is None:
             axis.set_xlabel("period without brace, s")
             axis.tick_params(labelbottom=True)
-    figure.suptitle(data.title, fontsize="medium")
+    figure.suptitle(data.wrapped_title(width), fontsize="medium")
     colours = ScalarMappable(BoundaryNorm(data.levels, 256), COLOURS)
     figure.colorbar(
         colours, ax=figure.axes, label="peak absolute acceleration, g", ticks=data.levels[::2], aspect=35

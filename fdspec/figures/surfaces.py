@@ -25,7 +25,8 @@ def plot_acceleration_surfaces(cube: xr.Dataset, record: str) -> Figure:
     """
     data = of_record(cube, record)
     rows, columns = data.panels
-    figure = Figure(figsize=(1.2 + 3.0 * columns, 1.0 + 2.8 * rows), layout="constrained", dpi=150)
+    width = max(6.5, 1.2 + 2.8 * columns)
+    figure = Figure(figsize=(width, 1.0 + 2.8 * rows), layout="constrained", dpi=150)
     scale = Normalize(0.0, data.levels[-1])
     period, pretension = np.meshgrid(data.period, data.pretension)
     for index, (ratio, peak) in enumerate(zip(data.stiffness_ratio, data.peak, strict=True)):
@@ -49,7 +50,7 @@ def plot_acceleration_surfaces(cube: xr.Dataset, record: str) -> Figure:
         axis.zaxis.set_major_locator(MaxNLocator(5))
         axis.view_init(elev=28, azim=-125)
         axis.set_box_aspect(None, zoom=0.9)
-    figure.suptitle(data.title, fontsize="medium")
+    figure.suptitle(data.wrapped_title(width), fontsize="medium")
     mappable = ScalarMappable(norm=scale, cmap=COLOURS)
     figure.colorbar(
         mappable, ax=figure.axes, label="height: peak absolute acceleration, g", aspect=35, pad=0.04
