@@ -67,7 +67,7 @@ from fdspec.kernels.types import (
 given1d = types.Array(types.float64, 1, "C", readonly=True)
 given2d = types.Array(types.float64, 2, "C", readonly=True)
 
-RADIANS = 1.0
+RADIANS = 2.5
 """Longest phase of a step; no result depends on it."""
 
 STOREY_RESULTS = (
