@@ -1,0 +1,80 @@
+"""Write a motion to a file that `read_record` reads back, to the last digit of what the layout can hold."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from types import MappingProxyType
+from typing import Final
+
+from fdspec.errors import InvalidInput, RecordError
+from fdspec.motion import GroundMotion
+from fdspec.units import G
+
+
+def as_columns(motion: GroundMotion) -> str:
+    """Return time, s, and acceleration, m/s2, in two columns; every number reads back to the bit."""
+    # Times as k dt would print rounding errors; the digits of dt are enough for each.
+    decimals = max(len(f"{motion.dt:.15f}".rstrip("0").split(".")[1]), 1)
+    header = [
+        _line(motion.event) or "ground motion",
+        f"Station: {_line(motion.station)}",
+        f"Component: {_line(motion.component)}",
+        f"Source: {_line(motion.source)}",
+        *[f"Step: {_line(step)}" for step in motion.history],
+        "Time[s] Accel[m/s2]",
+    ]
+    rows = [f"{k * motion.dt:.{decimals}f}\t{x!r}" for k, x in enumerate(motion.acceleration.tolist())]
+    return "\n".join(header + rows) + "\n"
+
+
+def as_at2(motion: GroundMotion) -> str:
+    """Return PEER's AT2: g, 17 digits, five a line; m/s2 come back within one rounding of the conversion."""
+    origin = [_line(text).replace(",", " ") for text in (motion.event, motion.station, motion.component)]
+    words = [f"{x:25.16E}" for x in (motion.acceleration / G).tolist()]
+    rows = ["".join(words[k : k + 5]) for k in range(0, len(words), 5)]
+    header = [
+        "PEER STRONG MOTION DATABASE RECORD. WRITTEN BY FDSPEC",
+        ", ".join(origin),
+        "ACCELERATION TIME HISTORY IN UNITS OF G",
+        f"NPTS= {motion.n}, DT= {motion.dt!r} SEC",
+    ]
+    return "\n".join(header + rows) + "\n"
+
+
+LAYOUTS: Final = MappingProxyType({"at2": as_at2, "txt": as_columns})
+"""Name of a layout, also the ending of its files -> what makes the text."""
+
+
+def write_record(motion: GroundMotion, path: str | os.PathLike[str], layout: str | None = None) -> Path:
+    """Write a motion as PEER AT2 ("at2") or two columns of text ("txt"), as the ending says if not `layout`.
+
+    Raises
+    ------
+    InvalidInput
+        When the layout is unknown.
+    RecordError
+        When the file cannot be written; none is left half-written.
+    """
+    file = Path(path)
+    chosen = (layout or file.suffix.lstrip(".")).lower()
+    make: Callable[[GroundMotion], str] | None = LAYOUTS.get(chosen)
+    if make is None:
+        raise InvalidInput(
+            f"layout must be one of {', '.join(LAYOUTS)}, as an option or as ending, not {chosen!r}"
+        )
+    text = make(motion)
+    partial = file.with_name(f".{file.name}.{os.getpid()}.part")
+    try:
+        partial.write_text(text, encoding="utf-8", newline="\n")
+        partial.replace(file)
+    except OSError as error:
+        partial.unlink(missing_ok=True)
+        raise RecordError(f"{file}: cannot be written ({error})") from error
+    return file
+
+
+def _line(text: str) -> str:
+    """Return text that fits one line of a header."""
+    return " ".join(text.split())
