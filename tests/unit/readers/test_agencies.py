@@ -34,6 +34,8 @@ SAID = {
         "Band-pass filter",
     ),
     "CWB": (["U", "N", "E"], 0.02, "1999/01/02-12:00:00 GMT+08", "MIL", "U", ""),
+    "NSMN (Turkey)": (["N-S", "E-W", "U-D"], 0.01, "1999/01/02 12:00:00 (GMT)", "0001", "N-S", ""),
+    "UNAM ASA": (["V", "N00E", "N90E"], 0.01, "1999/01/02 12:00:00 M=6.0", "MILL", "V", ""),
     "columns of text": (["Accel"], 0.01, "The Nowhere earthquake", "MILL", "", ""),
 }  # fmt: skip
 
@@ -79,6 +81,8 @@ COUNTS = {
     "K-NET or KiK-net": "Duration Time(s)  2",
     "GeoNet V1A or V2A": "Number of points     23",
     "CWB": "#RecordLength(sec): 0.46",
+    "NSMN (Turkey)": "NUMBER OF DATA          : 23",
+    "UNAM ASA": "NUM. TOTAL DE MUESTRAS, C1-C6          : /23/23/23",
 }
 
 
@@ -90,6 +94,8 @@ def test_a_damaged_count_is_refused(record_file, name, change):
     number = re.findall(r"[\d.]+", COUNTS[name])[-1]
     if name == "USGS SMC":
         damaged = text.replace(COUNTS[name], COUNTS[name].replace("        23", f"{23 + change:10d}"), 1)
+    elif name == "UNAM ASA":
+        damaged = text.replace("/23/23/23", f"/{23 + change}" * 3, 1)
     elif name == "CWB":
         damaged = text.replace(COUNTS[name], f"#RecordLength(sec): {0.46 + 0.02 * change:.2f}", 1)
     else:
@@ -151,6 +157,16 @@ REAL = {
     "kiknet__AICH040010061330.EW2": [("EW (surface)", 28600, 0.005, 3.896, GAL)],
     "geonet_v1a__HSES_20.V1A": [("N10E", 65536, 0.005, 2394.8, MM), ("N80W", 65536, 0.005, 2584.4, MM)],
     "geonet_v2a__WPWS_20.V2A": [("S16W", 5800, 0.02, 41.6, MM), ("S74E", 5800, 0.02, 194.0, MM)],
+    "nsmn_turkey__20170720223109_0921.txt": [
+        ("N-S", 28683, 0.01, 13.200332, GAL),
+        ("E-W", 28683, 0.01, 12.163827, GAL),
+        ("U-D", 28683, 0.01, 9.840572, GAL),
+    ],
+    "unam_mexico__ACAC1709.191": [
+        ("V", 35600, 0.005, 25.6114, GAL),
+        ("N00E", 35600, 0.005, 58.7394, GAL),
+        ("N90E", 35600, 0.005, 42.3377, GAL),
+    ],
     "cwb_taiwan__1-EAS.dat": [
         ("U", 6000, 0.02, 0.837, GAL),
         ("N", 6000, 0.02, 2.273, GAL),
@@ -175,8 +191,6 @@ REFUSED = {
     "cosmos_v1__Cosmos12TimeSeriesTest.v1": None,
     "miniseed__CI.MIKB.HNE.mseed": "miniSEED does not say the unit",
     "bhrc_iran__5520-1.V1": "expected .* columns",
-    "nsmn_turkey__20170720223109_0921.txt": "does not say the unit|expected times that grow",
-    "unam_mexico__ACAC1709.191": "the format is not recognised",
 }
 
 
