@@ -5,7 +5,7 @@ from __future__ import annotations
 from fdspec.jit import inlined, inner
 from fdspec.kernels.oscillator import expand
 from fdspec.kernels.roots import largest_magnitude
-from fdspec.kernels.types import FLOOR, SEARCH, STICK, Force, Peaks
+from fdspec.kernels.types import STICK, Force, Peaks
 
 
 @inlined
@@ -75,12 +75,29 @@ def floor_fourths(branch, v, a, force_rate, h):
     return cube * h, cube * theta
 
 
+@inner
+def largest_velocity(floor, search, n, h, best):
+    """The greater of ``best`` and the floor's largest velocity on the expanded piece."""
+    velocity_series(floor, n, h, search)
+    return largest_magnitude(search, n, best)
+
+
+@inner
+def largest_acceleration(floor, search, n, h, g, w2, base, best):
+    """The greater of ``best`` and the floor's largest absolute acceleration on the expanded piece."""
+    velocity_series(floor, n, h, search)
+    for k in range(n + 1):
+        search[k] = -g * search[k] - w2 * floor[k]
+    search[0] += base
+    return largest_magnitude(search, n, best)
+
+
 @inlined
-def floor_peaks(b, base, mass, work, n, share, start, end, force, h, peaks):
+def floor_peaks(b, base, mass, floor, search, n, share, start, end, force, h, peaks):
     """Peaks over a piece in which the oscillator ``b`` carries the floor: its end, and extrema inside.
 
     Absolute acceleration is base - g v - w2 u; base shear is ``mass`` times it (0: not by this rule).
-    ``share`` tells what the work array holds: 0 nothing, else the series of a piece of which this one
+    ``share`` tells what ``floor`` holds: 0 nothing, else the series of a piece of which this one
     is that part.  An extremum is looked for only where bounds leave room for one.
     """
     a0 = relative_acceleration(b, start.u, start.v, force.p0)
@@ -106,20 +123,13 @@ def floor_peaks(b, base, mass, work, n, share, start, end, force, h, peaks):
         > least
     )
     if see_u or see_v or see_q:
-        floor = work[FLOOR]
-        search = work[SEARCH]
         ready(floor, n, share, start.u, start.v, b.g, b.w2, force.p0, force.p1, h)
         if see_u:
             displacement = largest_magnitude(floor, n, displacement)
-        if see_v or see_q:
-            velocity_series(floor, n, h, search)
         if see_v:
-            velocity = largest_magnitude(search, n, velocity)
+            velocity = largest_velocity(floor, search, n, h, velocity)
         if see_q:
-            for k in range(n + 1):
-                search[k] = -b.g * search[k] - b.w2 * floor[k]
-            search[0] += base
-            top = largest_magnitude(search, n, least)
+            top = largest_acceleration(floor, search, n, h, b.g, b.w2, base, least)
             acceleration = max(acceleration, top)
             shear = max(shear, mass * top)
     return Peaks(acceleration, displacement, velocity, shear)

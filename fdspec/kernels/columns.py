@@ -15,6 +15,7 @@ from numba import types
 from fdspec.jit import entry, float1d, float2d, float3d, ground1d, inner
 from fdspec.kernels.bounds import floor_peaks
 from fdspec.kernels.energy import N_FORMS, put_losses
+from fdspec.kernels.oscillator import TERMS
 from fdspec.kernels.packed import (
     ALERT,
     CREST,
@@ -59,7 +60,7 @@ from fdspec.kernels.types import (
     U,
     V,
 )
-from fdspec.kernels.walk import WORK_SHAPE, begin, walk
+from fdspec.kernels.walk import begin, walk
 
 N_RESULTS = len(RESULTS)
 
@@ -90,7 +91,7 @@ def rest_lane(p, lane):
 
 
 @inner
-def see_crest(p, lane, plan, ground, rate, work):
+def see_crest(p, lane, plan, ground, rate, floor, search):
     """Look for the floor's extrema inside a quiet step of one lane and put its peaks right."""
     phase = p[PHASE * WIDTH + lane]
     start = Motion(p[U * WIDTH + lane], p[V * WIDTH + lane], 0.0, 0.0)
@@ -108,7 +109,9 @@ def see_crest(p, lane, plan, ground, rate, work):
         base = -phase * p[PUSH_FLOOR * WIDTH + lane]
         branch, mass, order = plan.floor, 0.0, plan.floor_order
     force = Force(base - ground, -rate, 0.0, 0.0)
-    peaks = floor_peaks(branch, base, mass, work, int(order), 0.0, start, end, force, plan.step, peaks)
+    peaks = floor_peaks(
+        branch, base, mass, floor, search, int(order), 0.0, start, end, force, plan.step, peaks
+    )
     p[END_A * WIDTH + lane] = peaks.acceleration
     p[END_X * WIDTH + lane] = peaks.displacement
     p[END_W * WIDTH + lane] = peaks.velocity
@@ -116,11 +119,25 @@ def see_crest(p, lane, plan, ground, rate, work):
 
 
 @inner
-def run_lanes(p, shelf, forms, states, count, ground, dt, parts, energy, certify, work):
+def run_lanes(
+    p,
+    shelf,
+    forms,
+    states,
+    count,
+    ground,
+    dt,
+    parts,
+    energy,
+    certify,
+    floor,
+    brace,
+    search,
+    times,
+    phases,
+    traces,
+):
     """Take ``count`` lanes, set to their start, through the motion; their states end in ``states``."""
-    times = np.empty(0)
-    phases = np.empty(0, np.int64)
-    traces = np.empty((0, 0))
     slipping = 0
     for lane in range(WIDTH):
         if p[PHASE * WIDTH + lane] != STICK:
@@ -145,14 +162,14 @@ def run_lanes(p, shelf, forms, states, count, ground, dt, parts, energy, certify
                 if p[ALERT * WIDTH + lane] > 0.0:
                     take_state(p, lane, states[lane])
                 elif p[CREST * WIDTH + lane] > 0.0:
-                    see_crest(p, lane, take_plan(shelf[lane]), start, rate, work)
+                    see_crest(p, lane, take_plan(shelf, lane), start, rate, floor, search)
             accept_lanes(p, energy, certify)
             for lane in range(count):
                 if p[ALERT * WIDTH + lane] > 0.0:
                     s = states[lane]
                     before = s[PHASE] != STICK
                     walk(
-                        take_plan(shelf[lane]),
+                        take_plan(shelf, lane),
                         forms[lane],
                         s,
                         0.0,
@@ -160,7 +177,9 @@ def run_lanes(p, shelf, forms, states, count, ground, dt, parts, energy, certify
                         rate,
                         energy,
                         certify,
-                        work,
+                        floor,
+                        brace,
+                        search,
                         times,
                         phases,
                         traces,
@@ -210,12 +229,14 @@ def sweep_columns(storeys, slip_force, kinetic_slip_force, ground, dt, radians, 
     # Which histories run: first every column without slip, then the slip forces that it can reach.
     column = np.empty(columns * forces, np.int64)
     force = np.empty(columns * forces, np.int64)
+    likeness = np.empty(columns * forces)
     held = np.empty(columns)
     p = np.empty(N_ROWS * WIDTH)
     shelf = np.empty((WIDTH, N_SHELF))
     forms = np.empty((WIDTH, N_FORMS))
     states = np.empty((WIDTH, N_STATE))
-    work = np.empty(WORK_SHAPE)
+    floor, brace, search = np.empty(TERMS), np.empty(TERMS), np.empty(TERMS)
+    times, phases, traces = np.empty(0), np.empty(0, np.int64), np.empty((0, 0))
     waiting = columns
     for sliding in (False, True):
         if sliding:
@@ -228,7 +249,12 @@ def sweep_columns(storeys, slip_force, kinetic_slip_force, ground, dt, radians, 
                     else:
                         column[waiting] = i
                         force[waiting] = j
+                        # Neighbours slip about as much: where none of them does, only stick is computed.
+                        likeness[waiting] = parts[i] + 0.5 * slip_force[j] / (held[i] + 1e-300)
                         waiting += 1
+            turn = np.argsort(likeness[:waiting])
+            column[:waiting] = column[:waiting][turn]
+            force[:waiting] = force[:waiting][turn]
         first = 0
         while first < waiting:
             here = parts[column[first] if sliding else order[first]]
@@ -246,7 +272,7 @@ def sweep_columns(storeys, slip_force, kinetic_slip_force, ground, dt, radians, 
                 scheme = plan(Storey(s[0], s[1], s[2], s[3], s[4], s[5], limit, kinetic), dt / here, radians)
                 if certify:
                     put_losses(scheme, forms[count])
-                put_plan(shelf[count], scheme)
+                put_plan(shelf, count, scheme)
                 put_lane(p, count, scheme, forms[count], certify)
                 begin(scheme, Motion(0.0, 0.0, 0.0, 0.0), states[count])
                 put_state(p, count, states[count])
@@ -254,9 +280,26 @@ def sweep_columns(storeys, slip_force, kinetic_slip_force, ground, dt, radians, 
             for lane in range(count, WIDTH):
                 put_lane(p, lane, scheme, forms[0], certify)
                 rest_lane(p, lane)
-            run_lanes(p, shelf, forms, states, count, ground, dt, here, energy, certify, work)
+            run_lanes(
+                p,
+                shelf,
+                forms,
+                states,
+                count,
+                ground,
+                dt,
+                here,
+                energy,
+                certify,
+                floor,
+                brace,
+                search,
+                times,
+                phases,
+                traces,
+            )
             for lane in range(count):
-                storey = take_plan(shelf[lane]).storey
+                storey = take_plan(shelf, lane).storey
                 if sliding:
                     finish(storey, states[lane], certify, out[column[first + lane], force[first + lane]])
                 else:

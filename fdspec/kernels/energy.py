@@ -8,7 +8,7 @@ from fdspec.jit import inlined, inner
 from fdspec.kernels.oscillator import StepLoss
 from fdspec.kernels.quadrature import series_area, series_square, step_loss
 from fdspec.kernels.roots import value_slope
-from fdspec.kernels.types import BRACE, FLOOR, STICK
+from fdspec.kernels.types import STICK
 
 
 STICK_FORM: Final = 0
@@ -64,10 +64,9 @@ def input_work(plan, phase, start, end, floor_area, brace_area, acceleration, ra
 
 
 @inner
-def series_work(plan, phase, work, n, acceleration, rate, h, x, viscous):
+def series_work(plan, phase, floor, brace, n, acceleration, rate, h, x, viscous):
     """Input and viscous work over the first part x of an expanded piece."""
     storey = plan.storey
-    floor = work[FLOOR]
     start = floor[0]
     end, _ = value_slope(floor, 0, n, x)
     part = x * h
@@ -75,7 +74,6 @@ def series_work(plan, phase, work, n, acceleration, rate, h, x, viscous):
     if phase == STICK:
         damping = storey.floor_damping + storey.brace_damping
         return -plan.mass * moved, damping * series_square(floor, n, h, x) if viscous else 0.0
-    brace = work[BRACE]
     end, _ = value_slope(brace, 0, n, x)
     swung = acceleration * (end - brace[0]) + rate * (part * end - series_area(brace, n, h, x))
     lost = 0.0

@@ -13,44 +13,44 @@ N_SHELF = 70
 
 
 @inner
-def put_numbers(row, at, numbers):
-    """Store a tuple of floats from place ``at`` on."""
+def put_numbers(shelf, i, at, numbers):
+    """Store a tuple of floats in row i from place ``at`` on."""
     for k in range(len(numbers)):
-        row[at + k] = numbers[k]
+        shelf[i, at + k] = numbers[k]
 
 
 @inlined
-def branch_at(row, at):
-    """Take a Branch from the row."""
-    return Branch(row[at], row[at + 1], row[at + 2], row[at + 3], row[at + 4])
+def branch_at(shelf, i, at):
+    """Take a Branch from row i."""
+    return Branch(shelf[i, at], shelf[i, at + 1], shelf[i, at + 2], shelf[i, at + 3], shelf[i, at + 4])
 
 
 @inlined
-def map_at(row, at):
-    """Take a StepMap from the row."""
+def map_at(shelf, i, at):
+    """Take a StepMap from row i."""
     return StepMap(
-        row[at],
-        row[at + 1],
-        row[at + 2],
-        row[at + 3],
-        row[at + 4],
-        row[at + 5],
-        row[at + 6],
-        row[at + 7],
-        row[at + 8],
-        row[at + 9],
-        row[at + 10],
-        row[at + 11],
+        shelf[i, at],
+        shelf[i, at + 1],
+        shelf[i, at + 2],
+        shelf[i, at + 3],
+        shelf[i, at + 4],
+        shelf[i, at + 5],
+        shelf[i, at + 6],
+        shelf[i, at + 7],
+        shelf[i, at + 8],
+        shelf[i, at + 9],
+        shelf[i, at + 10],
+        shelf[i, at + 11],
     )
 
 
 @inner
-def put_plan(row, plan):
+def put_plan(shelf, i, plan):
     """Put a plan away."""
-    put_numbers(row, _STOREY, plan.storey)
-    put_numbers(row, _STICK, plan.stick)
-    put_numbers(row, _FLOOR, plan.floor)
-    put_numbers(row, _BRACE, plan.brace)
+    put_numbers(shelf, i, _STOREY, plan.storey)
+    put_numbers(shelf, i, _STICK, plan.stick)
+    put_numbers(shelf, i, _FLOOR, plan.floor)
+    put_numbers(shelf, i, _BRACE, plan.brace)
     scalars = (
         plan.mass,
         plan.hold_u,
@@ -64,33 +64,33 @@ def put_plan(row, plan):
         plan.slip_order,
         plan.floor_order,
     )
-    put_numbers(row, _SCALARS, scalars)
-    put_numbers(row, _STICK_MAP, plan.stick_map)
-    put_numbers(row, _FLOOR_MAP, plan.floor_map)
-    put_numbers(row, _BRACE_MAP, plan.brace_map)
+    put_numbers(shelf, i, _SCALARS, scalars)
+    put_numbers(shelf, i, _STICK_MAP, plan.stick_map)
+    put_numbers(shelf, i, _FLOOR_MAP, plan.floor_map)
+    put_numbers(shelf, i, _BRACE_MAP, plan.brace_map)
 
 
 @inlined
-def take_plan(row):
+def take_plan(shelf, i):
     """Take a plan up again."""
     at = _SCALARS
     return Plan(
-        Storey(row[0], row[1], row[2], row[3], row[4], row[5], row[6], row[7]),
-        branch_at(row, _STICK),
-        branch_at(row, _FLOOR),
-        branch_at(row, _BRACE),
-        row[at],
-        row[at + 1],
-        row[at + 2],
-        row[at + 3],
-        row[at + 4],
-        row[at + 5],
-        row[at + 6],
-        row[at + 7],
-        row[at + 8],
-        row[at + 9],
-        row[at + 10],
-        map_at(row, _STICK_MAP),
-        map_at(row, _FLOOR_MAP),
-        map_at(row, _BRACE_MAP),
+        Storey(shelf[i, 0], shelf[i, 1], shelf[i, 2], shelf[i, 3], shelf[i, 4], shelf[i, 5], shelf[i, 6], shelf[i, 7]),
+        branch_at(shelf, i, _STICK),
+        branch_at(shelf, i, _FLOOR),
+        branch_at(shelf, i, _BRACE),
+        shelf[i, at],
+        shelf[i, at + 1],
+        shelf[i, at + 2],
+        shelf[i, at + 3],
+        shelf[i, at + 4],
+        shelf[i, at + 5],
+        shelf[i, at + 6],
+        shelf[i, at + 7],
+        shelf[i, at + 8],
+        shelf[i, at + 9],
+        shelf[i, at + 10],
+        map_at(shelf, i, _STICK_MAP),
+        map_at(shelf, i, _FLOOR_MAP),
+        map_at(shelf, i, _BRACE_MAP),
     )

@@ -7,10 +7,10 @@ from numba import types
 
 from fdspec.jit import entry, float1d, float2d, ground1d, int1d, record_of
 from fdspec.kernels.energy import N_FORMS, put_losses
+from fdspec.kernels.oscillator import TERMS
 from fdspec.kernels.plan import plan, steps_per_sample
 from fdspec.kernels.sdof import history
 from fdspec.kernels.types import N_STATE, Motion, Storey
-from fdspec.kernels.walk import WORK_SHAPE
 
 RADIANS = 1.0
 """Longest phase of a piece that is searched for roots; no result depends on it."""
@@ -38,7 +38,7 @@ def integrate(storey, ground, dt, free_steps, radians, start, times, phases, dt_
     forms = np.empty(N_FORMS)
     put_losses(scheme, forms)
     s = np.empty(N_STATE)
-    work = np.empty(WORK_SHAPE)
+    floor, brace, search = np.empty(TERMS), np.empty(TERMS), np.empty(TERMS)
     history(
-        scheme, forms, ground, dt, parts, free_steps, start, s, work, times, phases, dt_out, traces, result
+        scheme, forms, ground, dt, parts, free_steps, start, s, floor, brace, search, times, phases, dt_out, traces, result
     )

@@ -8,7 +8,7 @@ from __future__ import annotations
 from fdspec.jit import inlined, inner
 from fdspec.kernels.bounds import crest, floor_fourths, floor_peaks, ready, relative_acceleration, swing
 from fdspec.kernels.roots import clears, first_root, largest_magnitude
-from fdspec.kernels.types import BRACE, FLOOR, SEARCH, Peaks
+from fdspec.kernels.types import Peaks
 
 
 @inlined
@@ -41,15 +41,12 @@ def slip_is_quiet(plan, start, end, force, phase, h):
 
 
 @inner
-def search_slip(plan, work, n, h, phase, kick):
+def search_slip(floor, brace, slide, n, h, phase, kick):
     """Fraction of the expanded piece at which the sliding velocity comes to zero.
 
     ``kick`` is the sliding acceleration with which a slip begins at the piece's start, known from
     the rule that began it and not from differences; negative where no slip begins.
     """
-    floor = work[FLOOR]
-    brace = work[BRACE]
-    slide = work[SEARCH]
     pace = 1.0 / h
     for k in range(n):
         slide[k] = (k + 1) * (floor[k + 1] - brace[k + 1]) * pace
@@ -72,7 +69,7 @@ def base_shear(storey, motion):
 
 
 @inlined
-def slip_peaks(plan, work, n, share, start, end, force, phase, h, peaks):
+def slip_peaks(plan, floor, brace, search, n, share, start, end, force, phase, h, peaks):
     """Peaks over a slip piece: the floor's, and that of the base shear, in which the brace rings."""
     storey = plan.storey
     f = plan.floor
@@ -98,9 +95,6 @@ def slip_peaks(plan, work, n, share, start, end, force, phase, h, peaks):
         > shear
     )
     if see_s:
-        floor = work[FLOOR]
-        brace = work[BRACE]
-        search = work[SEARCH]
         ready(floor, n, share, start.u, start.v, f.g, f.w2, force.p0, force.p1, h)
         ready(brace, n, share, start.d, start.e, b.g, b.w2, force.b0, force.b1, h)
         share = 1.0
@@ -110,5 +104,5 @@ def slip_peaks(plan, work, n, share, start, end, force, phase, h, peaks):
         search[n] = 0.0
         shear = largest_magnitude(search, n, shear)
     base = -phase * storey.kinetic_slip_force / storey.floor_mass
-    moved = floor_peaks(f, base, 0.0, work, n, share, start, end, force, h, peaks)
+    moved = floor_peaks(f, base, 0.0, floor, search, n, share, start, end, force, h, peaks)
     return Peaks(moved.acceleration, moved.displacement, moved.velocity, shear)

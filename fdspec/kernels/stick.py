@@ -8,7 +8,7 @@ from __future__ import annotations
 from fdspec.jit import inlined, inner
 from fdspec.kernels.bounds import floor_fourths, floor_peaks, relative_acceleration
 from fdspec.kernels.roots import NO_ROOT, clears, first_root
-from fdspec.kernels.types import FLOOR, SEARCH, STICK
+from fdspec.kernels.types import STICK
 
 
 @inlined
@@ -35,14 +35,12 @@ def stick_is_quiet(plan, start, end, force, offset, h):
 
 
 @inner
-def search_stick(plan, work, n, h, offset, touching):
+def search_stick(plan, floor, gap, n, h, offset, touching):
     """Fraction of the expanded piece at which the reaction reaches the slip force, and its sign.
 
     ``touching`` is the sign of a reaction that stands at the slip force when the piece begins (a
     massless brace that has just stopped), else 0.
     """
-    floor = work[FLOOR]
-    gap = work[SEARCH]
     limit = plan.storey.slip_force
     best = NO_ROOT
     sign = STICK
@@ -60,6 +58,6 @@ def search_stick(plan, work, n, h, offset, touching):
 
 
 @inlined
-def stick_peaks(plan, work, n, share, start, end, force, offset, h, peaks):
+def stick_peaks(plan, floor, search, n, share, start, end, force, offset, h, peaks):
     """Peaks over a stick piece; base shear is the inertia of floor and brace as one."""
-    return floor_peaks(plan.stick, plan.lift * offset, plan.mass, work, n, share, start, end, force, h, peaks)
+    return floor_peaks(plan.stick, plan.lift * offset, plan.mass, floor, search, n, share, start, end, force, h, peaks)

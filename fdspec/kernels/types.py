@@ -69,11 +69,6 @@ class Energy(NamedTuple):
     release: float
 
 
-FLOOR: Final = 0
-BRACE: Final = 1
-SEARCH: Final = 2
-"""Rows of the work array: series of the floor, of the brace, and of the quantity searched."""
-
 U: Final = 0
 V: Final = 1
 D: Final = 2

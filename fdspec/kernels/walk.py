@@ -22,15 +22,13 @@ from fdspec.kernels.energy import (
     stored_energy,
 )
 from fdspec.kernels.friction import GOES_ON, phase_after_stop, reaction, sliding_kick
-from fdspec.kernels.oscillator import TERMS, advance, area, expand, square_integral
+from fdspec.kernels.oscillator import advance, area, expand, square_integral
 from fdspec.kernels.roots import value_slope
 from fdspec.kernels.slip import base_shear, search_slip, slip_is_quiet, slip_peaks
 from fdspec.kernels.stick import held_force, search_stick, stick_is_quiet, stick_peaks
 from fdspec.kernels.types import (
     ANCHOR,
-    BRACE,
     EVENTS,
-    FLOOR,
     INPUT,
     KICK,
     NO_KICK,
@@ -59,8 +57,6 @@ from fdspec.kernels.types import (
     U,
     V,
 )
-
-WORK_SHAPE = (3, TERMS)
 
 TRACES = (
     "displacement",
@@ -181,18 +177,18 @@ def whole_piece_work(plan, forms, phase, motion, end, force, acceleration, rate,
 
 
 @inner
-def write_trace(plan, work, n, phase, offset, anchor, travel, so_far, acceleration, rate, h, x, row):
+def write_trace(plan, floor, brace, n, phase, offset, anchor, travel, so_far, acceleration, rate, h, x, row):
     """Fill one row (see TRACES) at the fraction x of an expanded piece of length h."""
     storey = plan.storey
-    u, rise = value_slope(work[FLOOR], 0, n, x)
+    u, rise = value_slope(floor, 0, n, x)
     v = rise / h
-    done, lost = series_work(plan, phase, work, n, acceleration, rate, h, x, True)
+    done, lost = series_work(plan, phase, floor, brace, n, acceleration, rate, h, x, True)
     if phase == STICK:
         d = u - offset
         e = v
         friction = held_force(plan, u, v, offset)
     else:
-        d, rise = value_slope(work[BRACE], 0, n, x)
+        d, rise = value_slope(brace, 0, n, x)
         e = rise / h
         friction = phase * storey.kinetic_slip_force
         travel += phase * (u - d - anchor)
@@ -210,7 +206,7 @@ def write_trace(plan, work, n, phase, offset, anchor, travel, so_far, accelerati
 
 
 @inner
-def walk(plan, forms, s, at, a0, rate, energy, certify, work, times, phases, traces, dt_out, written, reach):
+def walk(plan, forms, s, at, a0, rate, energy, certify, floor, brace, search, times, phases, traces, dt_out, written, reach):
     """Take the state ``s`` over one step; return the number of output rows written so far.
 
     forms: the losses of the plan, (N_FORMS,), read where certify.  at: time of the step's start, s; a0, rate: ground acceleration there (m/s2) and its rate (m/s3).
@@ -223,8 +219,6 @@ def walk(plan, forms, s, at, a0, rate, energy, certify, work, times, phases, tra
     free = limit == 0.0
     tracing = traces.shape[0] > 0
     loose = storey.brace_mass == 0.0 and storey.brace_damping == 0.0
-    floor = work[FLOOR]
-    brace = work[BRACE]
 
     motion = Motion(s[U], s[V], s[D], s[E])
     offset = s[OFFSET]
@@ -257,9 +251,9 @@ def walk(plan, forms, s, at, a0, rate, energy, certify, work, times, phases, tra
                 quiet = slip_is_quiet(plan, motion, end, force, phase, h)
             if quiet:
                 if phase == STICK:
-                    peaks = stick_peaks(plan, work, order, 0.0, motion, end, force, offset, h, peaks)
+                    peaks = stick_peaks(plan, floor, search, order, 0.0, motion, end, force, offset, h, peaks)
                 else:
-                    peaks = slip_peaks(plan, work, order, 0.0, motion, end, force, phase, h, peaks)
+                    peaks = slip_peaks(plan, floor, brace, search, order, 0.0, motion, end, force, phase, h, peaks)
                 if energy:
                     done, lost = whole_piece_work(
                         plan, forms, phase, motion, end, force, acceleration, rate, h, certify
@@ -274,13 +268,13 @@ def walk(plan, forms, s, at, a0, rate, energy, certify, work, times, phases, tra
         if phase == STICK:
             b = plan.stick
             expand(floor, order, motion.u, motion.v, b.g, b.w2, force.p0, force.p1, h)
-            x, sign = search_stick(plan, work, order, h, offset, touching)
+            x, sign = search_stick(plan, floor, search, order, h, offset, touching)
         else:
             b = plan.floor
             expand(floor, order, motion.u, motion.v, b.g, b.w2, force.p0, force.p1, h)
             b = plan.brace
             expand(brace, order, motion.d, motion.e, b.g, b.w2, force.b0, force.b1, h)
-            x = search_slip(plan, work, order, h, phase, kick)
+            x = search_slip(floor, brace, search, order, h, phase, kick)
             sign = phase
         happens = x <= 1.0
         x = min(x, 1.0)
@@ -291,7 +285,8 @@ def walk(plan, forms, s, at, a0, rate, energy, certify, work, times, phases, tra
                 y = min(max((written * dt_out - at - tau) / h, 0.0), x)
                 write_trace(
                     plan,
-                    work,
+                    floor,
+                    brace,
                     order,
                     phase,
                     offset,
@@ -306,7 +301,7 @@ def walk(plan, forms, s, at, a0, rate, energy, certify, work, times, phases, tra
                 )
                 written += 1
         if energy:
-            done, lost = series_work(plan, phase, work, order, acceleration, rate, h, x, certify)
+            done, lost = series_work(plan, phase, floor, brace, order, acceleration, rate, h, x, certify)
             s[INPUT] += done
             s[VISCOUS] += lost
         if x > 0.0:
@@ -320,9 +315,9 @@ def walk(plan, forms, s, at, a0, rate, energy, certify, work, times, phases, tra
             h *= x
             end = Motion(u, v, d, e)
             if phase == STICK:
-                peaks = stick_peaks(plan, work, order, x, motion, end, force, offset, h, peaks)
+                peaks = stick_peaks(plan, floor, search, order, x, motion, end, force, offset, h, peaks)
             else:
-                peaks = slip_peaks(plan, work, order, x, motion, end, force, phase, h, peaks)
+                peaks = slip_peaks(plan, floor, brace, search, order, x, motion, end, force, phase, h, peaks)
             motion = end
         else:
             h = 0.0
