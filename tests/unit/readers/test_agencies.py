@@ -36,6 +36,7 @@ SAID = {
     "CWB": (["U", "N", "E"], 0.02, "1999/01/02-12:00:00 GMT+08", "MIL", "U", ""),
     "NSMN (Turkey)": (["N-S", "E-W", "U-D"], 0.01, "1999/01/02 12:00:00 (GMT)", "0001", "N-S", ""),
     "UNAM ASA": (["V", "N00E", "N90E"], 0.01, "1999/01/02 12:00:00 M=6.0", "MILL", "V", ""),
+    "BHRC (Iran)": (["L1", "T2"], 0.01, "1999/01/02 12:00:00", "Old Mill", "L1", ""),
     "columns of text": (["Accel"], 0.01, "The Nowhere earthquake", "MILL", "", ""),
 }  # fmt: skip
 
@@ -82,6 +83,7 @@ COUNTS = {
     "GeoNet V1A or V2A": "Number of points     23",
     "CWB": "#RecordLength(sec): 0.46",
     "NSMN (Turkey)": "NUMBER OF DATA          : 23",
+    "BHRC (Iran)": "NO. OF POINTS =     23",
     "UNAM ASA": "NUM. TOTAL DE MUESTRAS, C1-C6          : /23/23/23",
 }
 
@@ -167,6 +169,7 @@ REAL = {
         ("N00E", 35600, 0.005, 58.7394, GAL),
         ("N90E", 35600, 0.005, 42.3377, GAL),
     ],
+    "bhrc_iran__5520-1.V1": [],  # its header gives no peak
     "cwb_taiwan__1-EAS.dat": [
         ("U", 6000, 0.02, 0.837, GAL),
         ("N", 6000, 0.02, 2.273, GAL),
@@ -190,7 +193,6 @@ REFUSED = {
     "cosmos_v0c__NP1795.v0c": "line 51: .*raw counts are no acceleration",
     "cosmos_v1__Cosmos12TimeSeriesTest.v1": None,
     "miniseed__CI.MIKB.HNE.mseed": "miniSEED does not say the unit",
-    "bhrc_iran__5520-1.V1": "expected .* columns",
 }
 
 
@@ -204,6 +206,17 @@ def test_every_file_of_formats_is_accounted_for(shared_records):
 def test_files_that_are_refused_say_why(shared_records, name):
     with pytest.raises(RecordError, match=REFUSED[name]):
         read_channels(shared_records / "formats" / name)
+
+
+def test_bhrc_s_real_file(shared_records):
+    """Its header says count and duration; the first value stands alone to be seen."""
+    read = read_channels(shared_records / "formats" / "bhrc_iran__5520-1.V1")
+    assert [(name, len(motion), motion.dt) for name, motion in read.items()] == [
+        ("L1", 15616, 0.005),
+        ("V2", 15616, 0.005),
+        ("T3", 15616, 0.005),
+    ]
+    assert read["L1"].acceleration[0] == 0.854257e-3 / 10.0 * G
 
 
 def test_the_cosmos_example_whose_header_contradicts_its_values(shared_records):
