@@ -268,3 +268,67 @@ def test_miniseed_without_obspy_says_what_to_install(record_file, monkeypatch):
     monkeypatch.setattr("fdspec.records.miniseed.import_module", absent)
     with pytest.raises(RecordError, match=r"miniSEED needs obspy: pip install 'fdspec\[miniseed\]'"):
         read_record(record_file(b"000001D " + bytes(504), "a.mseed"), units="gal")
+
+
+DAMAGED_HEADERS = [
+    ("COSMOS V1 or V2", "acceleration pts,", "velocity pts,", "there is no acceleration channel"),
+    ("COSMOS V1 or V2", "acceleration pts,", "things,", "expected 'n acceleration pts"),
+    ("COSMOS V1 or V2", "      23 acceleration", "       1 acceleration", "expected at least 2 points"),
+    ("COSMOS V1 or V2", "on  17 lines", "on  18 lines", "100 values in rows of 6 do not fill 18 lines"),
+    (
+        "COSMOS V1 or V2",
+        "Format= (6F13.6)",
+        "Format= none",
+        "expected the number of lines and a Fortran format",
+    ),
+    ("COSMOS V1 or V2", "    10.000000     ", "     0.000000     ", "expected the time step in ms"),
+    ("COSMOS V1 or V2", "End-of-data for Chan  1", "Something", "expected the end of data"),
+    ("CSMIP V2", "of accel data", "of veloc data", "expected 'n points of accel data equally spaced"),
+    ("CSMIP V2", "    23 points of accel", "     1 points of accel", "expected at least 2 points"),
+    ("CSMIP V2", "in cm/sec2.", "in furlongs.", "expected acceleration in cm/sec2 or g, found 'furlongs'"),
+    (
+        "CSMIP V2",
+        "at  .010 sec, in cm/sec2",
+        "at  .0.1 sec, in cm/sec2",
+        "expected the step of real-header value 53",
+    ),
+    ("CSMIP V2", "End of data", "Nothing", "expected the end of data"),
+    ("CSMIP V1", "SEC AND G/10", "SEC AND CM", "expected 'UNITS OF UNCOR ACCEL ARE SEC AND G/10'"),
+    ("CSMIP V1", "  0.020  0", "  0.027  0", "expected equal time steps"),
+    ("USGS SMC", "  1.0000000E+02", "  0.0000000E+00", "expected samples a second as real 2, found 0"),
+    ("ESM or ITACA ASCII", "UNITS: cm/s^2", "UNITS: cm", "expected UNITS: cm/s.2, found 'cm'"),
+    (
+        "ESM or ITACA ASCII",
+        "NDATA: 23",
+        "NDATA: 23.5",
+        "expected a whole number of at least 2 behind 'NDATA'",
+    ),
+    ("K-NET or KiK-net", "2000(gal)/2000000", "2000/2000000", "expected a Scale Factor like"),
+    ("GeoNet V1A or V2A", "  0.0200", "  0.0000", "expected the time step as real 26"),
+    ("CWB", "AmplitudeUnit:  gal", "AmplitudeUnit:  cm", "expected AmplitudeUnit: gal"),
+    ("CWB", "     0.040", "     0.050", "expected the time 0.040 s, found 0.050"),
+    ("CWB", "Data: 4F10.3", "Data: 5F10.3", "expected DataSequence"),
+    ("NSMN (Turkey)", "VALUES (gal)", "VALUES", "expected RAW PGA VALUES .gal. above"),
+    ("NSMN (Turkey)", "       N-S ", "       S-N ", "expected the heading N-S  E-W  U-D"),
+    ("UNAM ASA", ": Gal (cm/s/s)", ": cuentas", "expected UNIDADES DE LOS DATOS: Gal, found 'cuentas'"),
+    ("UNAM ASA", "/0.01/0.01/0.01", "/0.01/0.02/0.01", "expected one time step and one number of samples"),
+    ("UNAM ASA", "3F10.4", "6F10.4", "expected FORMATO DATOS: 3F10.4"),
+    ("BHRC (Iran)", "AND G/10", "AND G", "expected 'UNITS ARE SECONDS AND G/10'"),
+    ("BHRC (Iran)", "\n/&", "\nand", "expected the end of data"),
+]
+
+
+@pytest.mark.parametrize(("name", "old", "new", "problem"), DAMAGED_HEADERS)
+def test_a_damaged_header_is_refused_with_what_was_expected(record_file, name, old, new, problem):
+    text = SAMPLES[name][0]
+    assert old in text
+    with pytest.raises(RecordError, match=problem):
+        read_channels(record_file(text.replace(old, new), "damaged.dat"))
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_miniseed_with_a_gap_is_refused(record_file):
+    """Two traces of one channel are no motion."""
+    content = samples.miniseed()
+    with pytest.raises(RecordError, match=r"channel XX\.MILL\.\.HNE has a gap or an overlap"):
+        read_record(record_file(content + content, "gap.mseed"), units="gal")
