@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import math
 
-from fdspec.jit import bare
+from fdspec.jit import inner
 from fdspec.kernels.types import STICK
 
 FLOOR_MASS = 0
@@ -74,7 +74,7 @@ NO_BRACE = 2
 """Kinds of storey."""
 
 
-@bare
+@inner
 def is_damped(frame):
     """Whether any dashpot stands between neighbours."""
     for i in range(frame.shape[1]):
@@ -83,7 +83,7 @@ def is_damped(frame):
     return False
 
 
-@bare
+@inner
 def is_grounded(frame):
     """Whether any spring or dashpot joins a floor to the ground."""
     for i in range(frame.shape[1]):
@@ -92,7 +92,7 @@ def is_grounded(frame):
     return False
 
 
-@bare
+@inner
 def kind_of(frame, i):
     """Whether storey i has a brace with mass, one without, or none."""
     if frame[BRACE_MASS, i] > 0.0:
@@ -100,7 +100,7 @@ def kind_of(frame, i):
     return MASSLESS if frame[BRACE_STIFFNESS, i] > 0.0 else NO_BRACE
 
 
-@bare
+@inner
 def set_phase(frame, model, phase, i):
     """Bring the model's column i in line with the storey's phase."""
     floor = frame[FLOOR_MASS, i]
@@ -126,7 +126,7 @@ def set_phase(frame, model, phase, i):
         model[GIVEN_FORCE, i] = force
 
 
-@bare
+@inner
 def held_rates(frame, dense_stiffness, dense_damping):
     """Bounds on the norms of M^-1 K (1/s2) and M^-1 C (1/s) with every damper stuck.
 
@@ -160,7 +160,7 @@ def held_rates(frame, dense_stiffness, dense_damping):
     return stiffness, damping
 
 
-@bare
+@inner
 def prepare(frame, model, held):
     """Fill what does not change with the phases; ``held`` is the pair of :func:`held_rates`."""
     for i in range(frame.shape[1]):
@@ -186,13 +186,13 @@ def prepare(frame, model, held):
             model[SLIP_RATE, i] = stiffness / damping
 
 
-@bare
+@inner
 def rate_of(stiffness, damping):
     """Largest rate (1/s) of x'' + C x' + K x = 0 with these norms of K and C."""
     return 0.5 * (damping + math.sqrt(damping * damping + 4.0 * stiffness))
 
 
-@bare
+@inner
 def fastest_rate(model, phase, held_rate):
     """Bound on the rate (1/s) of the frame in its present phases."""
     rate = held_rate

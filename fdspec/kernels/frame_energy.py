@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fdspec.jit import bare
+from fdspec.jit import inner
 from fdspec.kernels.frame import (
     BRACE_DAMPING,
     BRACE_MASS,
@@ -18,7 +18,7 @@ from fdspec.kernels.quadrature import NODES, WEIGHTS
 from fdspec.kernels.taylor import DISPLACEMENT, OFFSET, SLIDING, VELOCITY
 
 
-@bare
+@inner
 def input_work(frame, series, n, h, ground, rise, x):
     """Work (J) of the ground acceleration on the first part x of the step: - a_g sum m u', integrated."""
     total = 0.0
@@ -32,7 +32,7 @@ def input_work(frame, series, n, h, ground, rise, x):
     return -total * h * x
 
 
-@bare
+@inner
 def viscous_work(frame, dense_damping, damped, series, n, h, x, speeds):
     """Work (J) into all dashpots on the first part x of the step.
 
@@ -62,7 +62,7 @@ def viscous_work(frame, dense_damping, damped, series, n, h, x, speeds):
     return total * x * h
 
 
-@bare
+@inner
 def speeds_at(series, quantity, size, n, y, speeds, to):
     """Put the values of a quantity's rows at the fraction y into row ``to`` of speeds."""
     for i in range(1, size + 1, LANES):
@@ -72,7 +72,7 @@ def speeds_at(series, quantity, size, n, y, speeds, to):
         store_row(speeds, to, i, x)
 
 
-@bare
+@inner
 def kinetic_energy(frame, state):
     """Energy (J) of floors and braces that move so, relative to the ground."""
     total = 0.0
@@ -83,7 +83,7 @@ def kinetic_energy(frame, state):
     return 0.5 * total
 
 
-@bare
+@inner
 def strain_energy(frame, dense_stiffness, state):
     """Energy (J) in frame and braces."""
     total = 0.0
@@ -103,7 +103,7 @@ def strain_energy(frame, dense_stiffness, state):
     return 0.5 * total
 
 
-@bare
+@inner
 def stored_energy(frame, dense_stiffness, state):
     """Kinetic and strain energy (J) of a state."""
     return kinetic_energy(frame, state) + strain_energy(frame, dense_stiffness, state)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fdspec.jit import bare
+from fdspec.jit import inner
 from fdspec.kernels.frame import BRACE_MASS, FLOOR_MASS, SLIDING_COMPLIANCE
 from fdspec.kernels.roots import largest_magnitude
 from fdspec.kernels.taylor import (
@@ -25,7 +25,7 @@ PEAK_ROWS = 6
 """Rows of the ``peaks`` array (6, N): absolute, relative to the ground, relative to the floor below, N."""
 
 
-@bare
+@inner
 def raise_peaks(frame, model, series, reach, n, h, x, ground, rise, c, peaks):
     """Raise the peaks to those of the first part x of the step.
 
@@ -84,7 +84,7 @@ def raise_peaks(frame, model, series, reach, n, h, x, ground, rise, c, peaks):
             peaks[PEAK_SHEAR, j] = largest_magnitude(c, n - 1, peaks[PEAK_SHEAR, j])
 
 
-@bare
+@inner
 def take(series, quantity, i, n, x, c):
     """Copy a series, rescaled to the first part x of its step."""
     power = 1.0
@@ -93,7 +93,7 @@ def take(series, quantity, i, n, x, c):
         power *= x
 
 
-@bare
+@inner
 def take_difference(series, quantity, i, other, j, n, x, c):
     """Copy the difference of two series, rescaled to the first part x of their step."""
     power = 1.0
@@ -102,7 +102,7 @@ def take_difference(series, quantity, i, other, j, n, x, c):
         power *= x
 
 
-@bare
+@inner
 def shorten(c, n, x):
     """Rescale a series to the first part x of its step."""
     power = 1.0
@@ -111,7 +111,7 @@ def shorten(c, n, x):
         power *= x
 
 
-@bare
+@inner
 def storey_shear(frame, series, n, h, storey, c):
     """Series of the shear (N) in frame and brace of one storey, counted from 0, positive with the drift."""
     for k in range(n):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fdspec.jit import bare
+from fdspec.jit import inner
 from fdspec.kernels.frame import (
     BRACE_DAMPING,
     BRACE_STIFFNESS,
@@ -25,7 +25,7 @@ TALLY_ROWS = 3
 """Rows of the ``tally`` array (3, N)."""
 
 
-@bare
+@inner
 def begin_slip(frame, kind, phase, fresh, state, tally, i, sign):
     """Start slip from stick in this direction.
 
@@ -52,7 +52,7 @@ def begin_slip(frame, kind, phase, fresh, state, tally, i, sign):
         tally[RELEASE, i] += 0.5 * stiffness * (before - after) * (before - after)
 
 
-@bare
+@inner
 def end_slip(frame, kind, phase, fresh, touching, state, tally, i, held):
     """Decide, at zero sliding velocity, between stick, reversal and going on; ``held`` is the reaction
     that sticking would need.  Return whether the phase changed."""
@@ -82,14 +82,14 @@ def end_slip(frame, kind, phase, fresh, touching, state, tally, i, held):
     return True
 
 
-@bare
+@inner
 def close_travel(state, tally, i, sign):
     """Count the distance slipped since the slip began, and begin anew."""
     tally[TRAVEL, i] += sign * (state[OFFSET, i] - tally[ANCHOR, i])
     tally[ANCHOR, i] = state[OFFSET, i]
 
 
-@bare
+@inner
 def travel_so_far(phase, offset, tally, i):
     """Distance (m) slipped up to an instant with this offset."""
     return tally[TRAVEL, i] + phase[i] * (offset - tally[ANCHOR, i])

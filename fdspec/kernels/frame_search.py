@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from fdspec.jit import bare
+from fdspec.jit import inner
 from fdspec.kernels.frame import (
     BRACE_DAMPING,
     BRACE_MASS,
@@ -34,7 +34,7 @@ SAME_INSTANT = 1e-12
 of a root's place, so storeys that change within it change together."""
 
 
-@bare
+@inner
 def search(
     frame, model, kind, phase, fresh, touching, series, reach, state, n, h, ground, rise, c, instants, signs
 ):
@@ -77,7 +77,7 @@ def search(
     return first
 
 
-@bare
+@inner
 def slips_on(frame, model, sign, series, reach, state, h, ground, rise, i):
     """Whether the sliding velocity surely keeps its sign on the step.
 
@@ -108,7 +108,7 @@ def slips_on(frame, model, sign, series, reach, state, h, ground, rise, i):
     return sign * drift_rate - h * pull > ring
 
 
-@bare
+@inner
 def search_stick(series, n, limit, room, touching, vanishing, c, signs, i):
     """Where |reaction| reaches the limit; its direction goes to signs[i]."""
     first = NO_ROOT

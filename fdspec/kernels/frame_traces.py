@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fdspec.jit import bare
+from fdspec.jit import inner
 from fdspec.kernels.frame import KINETIC_SLIP_FORCE
 from fdspec.kernels.frame_energy import kinetic_energy, strain_energy
 from fdspec.kernels.frame_peaks import storey_shear
@@ -29,7 +29,7 @@ TOTAL_TRACES = ("input_energy", "viscous_energy", "kinetic_energy", "strain_ener
 """Columns of ``energies`` (m, 4)."""
 
 
-@bare
+@inner
 def write_traces(
     frame, dense_stiffness, phase, series, n, h, y, tally, state, motion, c, traces, energies, row
 ):

@@ -14,7 +14,7 @@ import math
 import numpy as np
 from numba import types
 
-from fdspec.jit import bare, entry, float1d, float2d, float3d, inner, int1d
+from fdspec.jit import entry, float1d, float2d, float3d, inner, int1d
 from fdspec.kernels.frame import (
     KINETIC_SLIP_FORCE,
     MASSLESS,
@@ -95,7 +95,7 @@ NO_TIME = 1e-13
 """Fraction of a record step that counts as its end."""
 
 
-@bare
+@inner
 def history(
     frame,
     dense_stiffness,
@@ -323,7 +323,7 @@ def history(
         scale = abs(work_in) + stored
         if scale > 0.0:
             now = stored_energy(frame, dense_stiffness, state)
-            error = (work_in + stored - now - viscous - friction) / scale
+            error = abs(work_in + stored - now - viscous - friction) / scale
     totals[0] = transitions
     totals[1] = friction
     totals[2] = viscous
@@ -333,14 +333,11 @@ def history(
 
 
 @inner
-def in_lanes(matrix, lanes):
-    """The matrix (N, N) with zeros up to (lanes, lanes); an empty one as it is."""
-    n = matrix.shape[0]
-    wide = np.zeros((lanes, lanes)) if n > 0 else np.zeros((0, 0))
-    for i in range(n):
-        for j in range(n):
+def widen(matrix, wide):
+    """Copy the matrix (N, N) into a wider one of zeros."""
+    for i in range(matrix.shape[0]):
+        for j in range(matrix.shape[0]):
             wide[i, j] = matrix[i, j]
-    return wide
 
 
 @entry(
@@ -401,12 +398,18 @@ def integrate(
     size = frame.shape[1]
     lanes = LANES * ((size + LANES - 1) // LANES)
     by_storey[:] = 0.0
+    wide = lanes if dense_stiffness.shape[0] > 0 else 0
+    stiffness_lanes = np.zeros((wide, wide))
+    widen(dense_stiffness, stiffness_lanes)
+    wide = lanes if dense_damping.shape[0] > 0 else 0
+    damping_lanes = np.zeros((wide, wide))
+    widen(dense_damping, damping_lanes)
     history(
         frame,
         dense_stiffness,
         dense_damping,
-        in_lanes(dense_stiffness, lanes),
-        in_lanes(dense_damping, lanes),
+        stiffness_lanes,
+        damping_lanes,
         ground,
         dt,
         free_steps,

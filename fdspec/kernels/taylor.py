@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from fdspec.jit import bare, inlined
+from fdspec.jit import inlined, inner
 from fdspec.kernels.frame import (
     BRACE_DAMPING,
     BRACE_SHARE,
@@ -81,7 +81,7 @@ def longest_phase(order):
 LONGEST_PHASE = np.array([longest_phase(n) for n in range(TERMS)])
 
 
-@bare
+@inner
 def order_for(theta, extra):
     """Order of the series over the phase theta (rad), with ``extra`` terms more."""
     n = 5
@@ -92,7 +92,7 @@ def order_for(theta, extra):
 
 @inlined
 def product(matrix, series, quantity, i, k):
-    """Terms i to i + 3 of a dense matrix (lanes, lanes), symmetric, times the coefficients k of a quantity."""
+    """Terms i to i + 3 of a symmetric matrix (lanes, lanes) times the coefficients k of a quantity."""
     total = (0.0, 0.0, 0.0, 0.0)
     for j in range(0, matrix.shape[0], LANES):
         x = load(series, quantity, j + 1, k)
@@ -102,7 +102,7 @@ def product(matrix, series, quantity, i, k):
     return total
 
 
-@bare
+@inner
 def expand(model, dense_stiffness, dense_damping, damped, grounded, n, h, ground, rise, series):
     """Fill the series of order n over the step h (s) from their first terms.
 
@@ -169,7 +169,7 @@ def expand(model, dense_stiffness, dense_damping, damped, grounded, n, h, ground
             store(series, INERTIA, i + 1, k, inertia)
 
 
-@bare
+@inner
 def measure(series, n, reach):
     """Fill ``reach``: how far reactions and accelerations may go from their values at the start."""
     for i in range(0, reach.shape[1], LANES):
@@ -186,7 +186,7 @@ def measure(series, n, reach):
         store_row(reach, JERK_REACH, i, jerk)
 
 
-@bare
+@inner
 def follow_drift(frame, state, fresh, phase, n, h, series, i):
     """Series of the offset of a slipping massless brace: the drift less the brace's own stretch.
 
@@ -214,7 +214,7 @@ def follow_drift(frame, state, fresh, phase, n, h, series, i):
         series[OFFSET, i + 1, 1] = 0.0
 
 
-@bare
+@inner
 def end_of_step(series, phase, n, x, state):
     """Set the state to that at the fraction x of the step."""
     for i in range(state.shape[1]):
@@ -235,7 +235,7 @@ def end_of_step(series, phase, n, x, state):
             state[SLIDING, i] = w
 
 
-@bare
+@inner
 def reaction_now(frame, model, dense_stiffness, dense_damping, state, i):
     """Reaction (N) that storey i would need to stick, its sliding velocity taken as zero."""
     size = frame.shape[1]
