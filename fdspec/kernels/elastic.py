@@ -42,11 +42,11 @@ def step_lanes(p, start, end):
         p[X * LANES + lane] = xn
         p[V * LANES + lane] = vn
         most = p[MOST_X * LANES + lane]
-        p[MOST_X * LANES + lane] = most if most > abs(xn) else abs(xn)  # noqa: FURB136
+        p[MOST_X * LANES + lane] = most if most > abs(xn) else abs(xn)
         most = p[MOST_V * LANES + lane]
-        p[MOST_V * LANES + lane] = most if most > abs(vn) else abs(vn)  # noqa: FURB136
+        p[MOST_V * LANES + lane] = most if most > abs(vn) else abs(vn)
         most = p[MOST_Y * LANES + lane]
-        p[MOST_Y * LANES + lane] = most if most > abs(y) else abs(y)  # noqa: FURB136
+        p[MOST_Y * LANES + lane] = most if most > abs(y) else abs(y)
 
 
 @inner
