@@ -9,8 +9,9 @@ import numpy as np
 from fdspec.building import Building
 from fdspec.course import Course, FloatArray, Span
 from fdspec.errors import InvalidInput
+from fdspec.kernels.plan import RADIANS
 from fdspec.kernels.sdof import RESULTS
-from fdspec.kernels.single_storey import RADIANS, integrate
+from fdspec.kernels.single_storey import integrate
 from fdspec.kernels.types import Motion
 from fdspec.kernels.walk import TRACES
 from fdspec.motion import GroundMotion

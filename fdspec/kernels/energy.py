@@ -10,7 +10,6 @@ from fdspec.kernels.quadrature import series_area, series_square, step_loss
 from fdspec.kernels.roots import value_slope
 from fdspec.kernels.types import STICK
 
-
 STICK_FORM: Final = 0
 FLOOR_FORM: Final = 10
 BRACE_FORM: Final = 20

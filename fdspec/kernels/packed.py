@@ -18,11 +18,12 @@ import math
 
 from fdspec.jit import inlined, inner
 from fdspec.kernels.energy import STICK_FORM, STRIDE_FORM
-from fdspec.kernels.oscillator import step_map
+from fdspec.kernels.shelf import STICK_MAP
 from fdspec.kernels.types import (
     INPUT,
     KICK,
     N_STATE,
+    NO_KICK,
     OFFSET,
     PEAK_ACCELERATION,
     PEAK_DISPLACEMENT,
@@ -103,85 +104,97 @@ def form(p, row, lane, x, v, p0, p1):
 
 
 @inner
-def put(p, row, lane, number):
-    """Store a number of a lane in a row."""
-    p[row * WIDTH + lane] = number
-
-
-@inner
-def put_map(p, row, lane, to):
-    """Store a step map."""
-    for k in range(12):
-        put(p, row + k, lane, to[k])
-
-
-@inner
-def put_loss(p, row, lane, forms, place):
-    """Store a quadratic form, the terms off its diagonal doubled."""
-    for k in range(10):
-        put(p, row + k, lane, forms[place + k] * (1.0 if k == 0 or k == 4 or k == 7 or k == 9 else 2.0))
-
-
-@inner
 def put_branch(p, row, lane, branch, h):
     """Store an oscillator that carries the floor: seven rows."""
     theta = branch.rate * h
-    fourth_v = TAIL * theta**4
-    fourth_u = TAIL * theta**3 * h
-    put(p, row, lane, branch.g)
-    put(p, row + 1, lane, branch.w2)
-    put(p, row + 2, lane, branch.drift)
-    put(p, row + 3, lane, branch.slowness)
-    put(p, row + 4, lane, fourth_u)
-    put(p, row + 5, lane, fourth_v)
-    put(p, row + 6, lane, branch.g * fourth_v + branch.w2 * fourth_u)
+    fourth = TAIL * theta * theta * theta
+    p[row * WIDTH + lane] = branch.g
+    p[(row + 1) * WIDTH + lane] = branch.w2
+    p[(row + 2) * WIDTH + lane] = branch.drift
+    p[(row + 3) * WIDTH + lane] = branch.slowness
+    p[(row + 4) * WIDTH + lane] = fourth * h
+    p[(row + 5) * WIDTH + lane] = fourth * theta
+    p[(row + 6) * WIDTH + lane] = fourth * (branch.g * theta + branch.w2 * h)
 
 
 @inner
-def put_lane(p, lane, plan, forms, certify):
-    """Store the constants of a plan."""
+def put_lane(p, lane, plan, shelf, forms, stride, certify):
+    """Store the constants of a plan: those it holds, and what bounds over a whole step weigh them with.
+
+    shelf, forms, stride: the rows of the plan, of its losses, and of the maps of floor and brace over
+    a whole step.
+    """
     storey = plan.storey
-    h = plan.step
     sliding = storey.kinetic_slip_force if storey.slip_force < math.inf else 0.0
     massive = storey.brace_mass > 0.0
-    put(p, LIMIT, lane, storey.slip_force)
-    put(p, PUSH_FLOOR, lane, sliding / storey.floor_mass)
-    put(p, PUSH_BRACE, lane, sliding / storey.brace_mass if massive else 0.0)
-    put(p, LIFT, lane, plan.lift)
-    put(p, MASS, lane, plan.mass)
-    put(p, FLOOR_MASS, lane, storey.floor_mass)
-    put(p, BRACE_MASS, lane, storey.brace_mass)
-    put(p, LIGHT, lane, 1.0 / plan.mass)
+    p[LIMIT * WIDTH + lane] = storey.slip_force
+    p[PUSH_FLOOR * WIDTH + lane] = sliding / storey.floor_mass
+    p[PUSH_BRACE * WIDTH + lane] = sliding / storey.brace_mass if massive else 0.0
+    p[LIFT * WIDTH + lane] = plan.lift
+    p[MASS * WIDTH + lane] = plan.mass
+    p[FLOOR_MASS * WIDTH + lane] = storey.floor_mass
+    p[BRACE_MASS * WIDTH + lane] = storey.brace_mass
+    p[LIGHT * WIDTH + lane] = 1.0 / plan.mass
     # A loose brace has no quasi-static motion; a damped one's losses are not tallied a step at a time.
     loose = massive and storey.brace_stiffness == 0.0
-    put(p, MUST_WALK, lane, 1.0 if loose or (certify and storey.brace_damping > 0.0) else 0.0)
-    put_branch(p, S_G, lane, plan.stick, h)
-    put_branch(p, F_G, lane, plan.floor, h)
-    put(p, HOLD_U, lane, plan.hold_u)
-    put(p, HOLD_V, lane, plan.hold_v)
-    put(p, HOLD_O, lane, plan.hold_offset)
-    put(
-        p,
-        HOLD_TAIL,
-        lane,
-        abs(plan.hold_u) * at(p, S_TAIL_U, lane) + abs(plan.hold_v) * at(p, S_TAIL_V, lane),
-    )
+    p[MUST_WALK * WIDTH + lane] = 1.0 if loose or (certify and storey.brace_damping > 0.0) else 0.0
+    put_branch(p, S_G, lane, plan.stick, plan.step)
+    put_branch(p, F_G, lane, plan.floor, plan.step)
+    tail_u, tail_v = at(p, S_TAIL_U, lane), at(p, S_TAIL_V, lane)
+    p[HOLD_U * WIDTH + lane] = plan.hold_u
+    p[HOLD_V * WIDTH + lane] = plan.hold_v
+    p[HOLD_O * WIDTH + lane] = plan.hold_offset
+    p[HOLD_TAIL * WIDTH + lane] = abs(plan.hold_u) * tail_u + abs(plan.hold_v) * tail_v
     brace = plan.brace
-    put(p, B_G, lane, brace.g)
-    put(p, B_W2, lane, brace.w2)
-    put(p, B_DRIFT, lane, brace.drift)
-    put(p, B_SLOW, lane, brace.slowness if massive else 0.0)
-    put(p, B_OMEGA, lane, math.sqrt(brace.w2) if massive else 0.0)
-    put(p, B_GROUND, lane, 1.0 if massive else 0.0)
-    put_map(p, S_MAP, lane, plan.stick_map)
-    put_map(p, F_MAP, lane, step_map(plan.floor.g, plan.floor.w2, h))
-    put_map(p, B_MAP, lane, step_map(brace.g, brace.w2, h))
-    if certify:
-        put_loss(p, S_LOSS, lane, forms, STICK_FORM)
-        put_loss(p, F_LOSS, lane, forms, STRIDE_FORM)
-    put(p, S_DAMP, lane, storey.floor_damping + storey.brace_damping)
-    put(p, F_DAMP, lane, storey.floor_damping)
-    put(p, HELD, lane, 0.0)
+    p[B_G * WIDTH + lane] = brace.g
+    p[B_W2 * WIDTH + lane] = brace.w2
+    p[B_DRIFT * WIDTH + lane] = brace.drift
+    p[B_SLOW * WIDTH + lane] = brace.slowness if massive else 0.0
+    p[B_OMEGA * WIDTH + lane] = math.sqrt(brace.w2) if massive else 0.0
+    p[B_GROUND * WIDTH + lane] = 1.0 if massive else 0.0
+    p[S_DAMP * WIDTH + lane] = storey.floor_damping + storey.brace_damping
+    p[F_DAMP * WIDTH + lane] = storey.floor_damping
+    p[HELD * WIDTH + lane] = 0.0
+    for k in range(12):
+        p[(S_MAP + k) * WIDTH + lane] = shelf[STICK_MAP + k]
+        p[(F_MAP + k) * WIDTH + lane] = stride[k]
+        p[(B_MAP + k) * WIDTH + lane] = stride[12 + k]
+    for k in range(10):
+        double = 1.0 if k in (0, 4, 7, 9) else 2.0  # off the diagonal of the quadratic form
+        p[(S_LOSS + k) * WIDTH + lane] = forms[STICK_FORM + k] * double
+        p[(F_LOSS + k) * WIDTH + lane] = forms[STRIDE_FORM + k] * double
+
+
+@inner
+def start_lane(p, lane):
+    """Set a lane to rest at t = 0; a damper without friction slides from the start."""
+    for row in range(N_STATE):
+        p[row * WIDTH + lane] = 0.0
+    p[KICK * WIDTH + lane] = NO_KICK
+    p[PHASE * WIDTH + lane] = 1.0 if at(p, LIMIT, lane) == 0.0 else 0.0
+
+
+@inner
+def rest_lane(p, lane):
+    """Make a lane quiet for good: sticking, no slip force to reach, no peak to pass.  Its numbers serve nobody."""
+    p[LIMIT * WIDTH + lane] = math.inf
+    start_lane(p, lane)
+    for row in range(PEAK_ACCELERATION, PEAK_SHEAR + 1):
+        p[row * WIDTH + lane] = math.inf
+
+
+@inner
+def put_state(p, lane, s):
+    """Store a history's state in its lane."""
+    for row in range(N_STATE):
+        p[row * WIDTH + lane] = s[row]
+
+
+@inner
+def take_state(p, lane, s):
+    """Take a history's state from its lane."""
+    for row in range(N_STATE):
+        s[row] = p[row * WIDTH + lane]
 
 
 @inner

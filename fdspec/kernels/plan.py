@@ -9,6 +9,9 @@ from fdspec.jit import inner
 from fdspec.kernels.oscillator import StepMap, rate_bound, series_order, step_map
 from fdspec.kernels.types import Storey
 
+RADIANS = 1.0
+"""Longest phase of a piece that is searched for roots; no result depends on it."""
+
 
 class Branch(NamedTuple):
     """One linear oscillator of the storey: floor and brace as one, the floor alone, the brace alone."""

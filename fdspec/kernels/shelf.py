@@ -7,9 +7,14 @@ from fdspec.kernels.oscillator import StepMap
 from fdspec.kernels.plan import Branch, Plan
 from fdspec.kernels.types import Storey
 
-_STOREY, _STICK, _FLOOR, _BRACE, _SCALARS, _STICK_MAP, _FLOOR_MAP, _BRACE_MAP = 0, 8, 13, 18, 23, 34, 46, 58
+_STOREY, _STICK, _FLOOR, _BRACE, _SCALARS, STICK_MAP, FLOOR_MAP, BRACE_MAP = 0, 8, 13, 18, 23, 34, 46, 58
+"""Places of a plan's parts in its row."""
+
 N_SHELF = 70
 """Numbers of a plan."""
+
+N_STRIDE = 24
+"""Numbers of two step maps, of floor and brace apart over a whole step."""
 
 
 @inner
@@ -65,9 +70,9 @@ def put_plan(shelf, i, plan):
         plan.floor_order,
     )
     put_numbers(shelf, i, _SCALARS, scalars)
-    put_numbers(shelf, i, _STICK_MAP, plan.stick_map)
-    put_numbers(shelf, i, _FLOOR_MAP, plan.floor_map)
-    put_numbers(shelf, i, _BRACE_MAP, plan.brace_map)
+    put_numbers(shelf, i, STICK_MAP, plan.stick_map)
+    put_numbers(shelf, i, FLOOR_MAP, plan.floor_map)
+    put_numbers(shelf, i, BRACE_MAP, plan.brace_map)
 
 
 @inlined
@@ -75,7 +80,16 @@ def take_plan(shelf, i):
     """Take a plan up again."""
     at = _SCALARS
     return Plan(
-        Storey(shelf[i, 0], shelf[i, 1], shelf[i, 2], shelf[i, 3], shelf[i, 4], shelf[i, 5], shelf[i, 6], shelf[i, 7]),
+        Storey(
+            shelf[i, 0],
+            shelf[i, 1],
+            shelf[i, 2],
+            shelf[i, 3],
+            shelf[i, 4],
+            shelf[i, 5],
+            shelf[i, 6],
+            shelf[i, 7],
+        ),
         branch_at(shelf, i, _STICK),
         branch_at(shelf, i, _FLOOR),
         branch_at(shelf, i, _BRACE),
@@ -90,7 +104,7 @@ def take_plan(shelf, i):
         shelf[i, at + 8],
         shelf[i, at + 9],
         shelf[i, at + 10],
-        map_at(shelf, i, _STICK_MAP),
-        map_at(shelf, i, _FLOOR_MAP),
-        map_at(shelf, i, _BRACE_MAP),
+        map_at(shelf, i, STICK_MAP),
+        map_at(shelf, i, FLOOR_MAP),
+        map_at(shelf, i, BRACE_MAP),
     )

@@ -12,9 +12,6 @@ from fdspec.kernels.plan import plan, steps_per_sample
 from fdspec.kernels.sdof import history
 from fdspec.kernels.types import N_STATE, Motion, Storey
 
-RADIANS = 1.0
-"""Longest phase of a piece that is searched for roots; no result depends on it."""
-
 
 @entry(
     types.void(
@@ -40,5 +37,20 @@ def integrate(storey, ground, dt, free_steps, radians, start, times, phases, dt_
     s = np.empty(N_STATE)
     floor, brace, search = np.empty(TERMS), np.empty(TERMS), np.empty(TERMS)
     history(
-        scheme, forms, ground, dt, parts, free_steps, start, s, floor, brace, search, times, phases, dt_out, traces, result
+        scheme,
+        forms,
+        ground,
+        dt,
+        parts,
+        free_steps,
+        start,
+        s,
+        floor,
+        brace,
+        search,
+        times,
+        phases,
+        dt_out,
+        traces,
+        result,
     )

@@ -7,7 +7,7 @@ import pytest
 
 import fdspec
 from fdspec.course import Span
-from fdspec.kernels.single_storey import RADIANS
+from fdspec.kernels.plan import RADIANS
 from fdspec.single_storey import integrate_single_storey
 from tests import cells
 from tests.answers import PEAKS, Answer, building_of, swept
