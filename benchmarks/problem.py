@@ -17,7 +17,7 @@ from tests.oracle import sdof_events
 from tests.reference import numbers
 
 STUDY_ELEVEN = [5e3 + 50e3 * k for k in range(11)]
-"""Slip forces of the study's eleven pretensions; the last four are never reached in this problem."""
+"""Slip forces of the study's eleven pretensions; the last six are never reached in this problem."""
 
 SLIPPING_ELEVEN = [20e3 + 15e3 * k for k in range(11)]
 """Eleven that all slip."""
