@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 import fdspec
 from fdspec.course import Course, Span
 from fdspec.many_storeys import integrate_many_storeys
+from fdspec.records import catalogue
 from tests.reference import numbers
 
 GROUND, DT = numbers.motion("mdof_peaks.json")
@@ -124,7 +125,7 @@ def test_storeys_never_hold_more_than_their_slip_force(building: fdspec.Building
 
 @pytest.mark.slow
 def test_a_hundred_random_ten_storey_buildings_under_every_record() -> None:
-    motions = [fdspec.load_record(entry.name) for entry in fdspec.catalogue()]
+    motions = [fdspec.load_record(entry.name) for entry in catalogue()]
     worst = 0.0
     for seed in range(100):
         building = drawn(1000 + seed, 10)
