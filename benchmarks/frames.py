@@ -6,6 +6,7 @@ Two dampers that its users reach for: `CoulombDamper` (friction made viscous bel
 
 from __future__ import annotations
 
+import os
 import tempfile
 from pathlib import Path
 
@@ -18,6 +19,7 @@ def run(problem: Problem, damper: str, step: float) -> float | None:
 
     ground, dt = problem.motion
     s = problem.storey
+    ops.logFile(os.devnull, "-noEcho")
     ops.wipe()
     ops.model("basic", "-ndm", 1, "-ndf", 1)
     for node, mass in ((1, 0.0), (2, s.floor_mass), (3, s.brace_mass)):
