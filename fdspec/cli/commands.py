@@ -11,7 +11,7 @@ COMMANDS = {
         "Compute the cube of a study; without a file, the study of the nine records.",
     ),
     "simulate": ("fdspec.cli.simulate:simulate", "Compute the history of one frame under one record."),
-    "records": ("fdspec.cli.records:records", "List and show the records of the catalogue."),
+    "records": ("fdspec.cli.records:records", "List, show, check, convert and draw ground motions."),
     "figures": ("fdspec.cli.figures:figures", "Draw the acceleration over pretension and period."),
     "export": ("fdspec.cli.export:export", "Write one record of a cube for other programs (netCDF, CSV)."),
 }

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import click
 
-from fdspec.cli.output import force_option, free, save_picture
-from fdspec.errors import InvalidInput, StoreError
+from fdspec.cli.output import force_option, free, made_folder, save_picture
+from fdspec.errors import InvalidInput
 
 
 @click.command()
@@ -39,11 +37,7 @@ def figures(cube: str, output: str, records: tuple[str, ...], surface: bool, kin
     if unknown := [name for name in records if name not in known]:
         raise InvalidInput(f"{cube} has no record {unknown[0]!r}; it has {', '.join(known)}")
     chosen = list(dict.fromkeys(records)) or known
-    folder = Path(output)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise StoreError(f"cannot make the folder {folder}: {error.strerror}") from error
+    folder = made_folder(output)
     what = "surface" if surface else "map"
     suffixes = (f".{kind}",)
     paths = [folder / f"{_file_stem(name)}-acceleration-{what}.{kind}" for name in chosen]

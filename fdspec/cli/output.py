@@ -40,6 +40,16 @@ def free(path: str | Path, *, force: bool, suffixes: tuple[str, ...] | None = No
     return path
 
 
+def made_folder(path: str | Path) -> Path:
+    """Return a folder for results, made if absent."""
+    folder = Path(path)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise StoreError(f"cannot make the folder {folder}: {error.strerror}") from error
+    return folder
+
+
 def save_picture(figure: Figure, path: Path) -> None:
     """Write a figure as a whole or not at all; two runs give the same bytes."""
     from fdspec.figures import encode

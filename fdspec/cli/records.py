@@ -1,4 +1,4 @@
-"""`fdspec records`: what the catalogue holds."""
+"""`fdspec records`: the catalogue, and the user's own files."""
 
 import click
 
@@ -13,13 +13,26 @@ COMMANDS = {
         "fdspec.cli.records_show:show_record",
         "Show all that is known of one record, of the catalogue or a file.",
     ),
+    "check": (
+        "fdspec.cli.records_check:check_records",
+        "Look for the study's records among your own files, and link them.",
+    ),
+    "convert": (
+        "fdspec.cli.records_convert:convert_record",
+        "Write a record of any format as PEER AT2 or as two columns.",
+    ),
+    "figures": (
+        "fdspec.cli.records_figures:draw_records",
+        "Draw records together: histories and elastic spectra.",
+    ),
 }
 
 
 @click.group(cls=LazyGroup, lazy=COMMANDS)
 def records() -> None:
-    """List and show the records of the catalogue.
+    """List, show, check, convert and draw records.
 
     The study's own files cannot be shipped. Under each of its names stands a real record of the same
-    earthquake, by default scaled to the peak ground acceleration that the study prints.
+    earthquake, by default scaled to the peak ground acceleration that the study prints, until `check --link`
+    puts a file of your own in its place.
     """

@@ -3,10 +3,21 @@
 from __future__ import annotations
 
 import json
+from typing import TYPE_CHECKING, Final
 
 import click
 
+from fdspec.cli.output import PICTURES, force_option, free, save_picture
 from fdspec.cli.record_options import file_options, named_records
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from fdspec.motion import GroundMotion
+    from fdspec.records import CatalogueEntry
+
+DAMPING: Final = (0.02, 0.05, 0.10)
+"""Damping ratios of the picture's spectra."""
 
 
 @click.command("show")
@@ -14,10 +25,29 @@ from fdspec.cli.record_options import file_options, named_records
 @file_options
 @click.option("--raw", is_flag=True, help="As recorded, not scaled to the study's PGA.")
 @click.option("--json", "as_json", is_flag=True, help="As JSON.")
+@click.option(
+    "--figure",
+    metavar="FILE",
+    help="A picture too: history, Husid plot and elastic spectra; .png, .pdf or .svg.",
+)
+@force_option
 def show_record(
-    record: str, units: str | None, dt: float | None, channel: str | None, raw: bool, as_json: bool
+    record: str,
+    units: str | None,
+    dt: float | None,
+    channel: str | None,
+    raw: bool,
+    as_json: bool,
+    figure: str | None,
+    force: bool,
 ) -> None:
-    """Show what is known of one record, of the catalogue or in a file, and what was done to it."""
+    """Show what is known of one record, of the catalogue or in a file: origin, numbers, what was done to it.
+
+    PGV and PGD are integrated from rest without correction; the significant duration is from 5 to 95 % of the
+    Arias intensity.
+    """
+    picture = None if figure is None else free(figure, force=force, suffixes=PICTURES)
+
     from fdspec.records import catalogue
     from fdspec.study import find_record
     from fdspec.units import G
@@ -31,22 +61,11 @@ def show_record(
         "component": motion.component,
         "source": motion.source,
     }
+    for entry in catalogue():
+        if isinstance(named, str) and named.upper() == entry.name:
+            about |= _catalogued(entry)
+    about |= {"pga_g": motion.pga / G, **_intensity(motion)}
     about |= {
-        key: value
-        for entry in catalogue()
-        if isinstance(named, str) and named.upper() == entry.name
-        for key, value in {
-            "soil": entry.soil,
-            "magnitude": entry.magnitude,
-            "study_pga_g": entry.pga_g,
-            "study_duration_s": entry.duration,
-            "site_class": entry.stand_in.site_class,
-            "vs30_m_per_s": entry.stand_in.vs30,
-            "file": str(entry.stand_in.path),
-        }.items()
-    }
-    about |= {
-        "pga_g": motion.pga / G,
         "scale_factor": motion.scale_factor,
         "dt_s": motion.dt,
         "samples": motion.n,
@@ -54,11 +73,64 @@ def show_record(
         "history": list(motion.history),
         "checksum": motion.checksum,
     }
-    if as_json:
-        click.echo(json.dumps(about, indent=2))
-        return
+    if picture is not None:
+        _draw(motion, picture)
+        about["figure"] = str(picture)
+    click.echo(json.dumps(about, indent=2) if as_json else _lines(about))
+
+
+def _catalogued(entry: CatalogueEntry) -> dict[str, object]:
+    """Return what the study says of its record, and what stands under the name here."""
+    from fdspec.records.links import linked
+
+    link = linked(entry.name)
+    study = {
+        "soil": entry.soil,
+        "magnitude": entry.magnitude,
+        "study_pga_g": entry.pga_g,
+        "study_duration_s": entry.duration,
+    }
+    if link is not None:
+        return {**study, "file": str(link.path)}
+    stand_in = entry.stand_in
+    return {
+        **study,
+        "site_class": stand_in.site_class,
+        "vs30_m_per_s": stand_in.vs30,
+        "file": str(stand_in.path),
+    }
+
+
+def _intensity(motion: GroundMotion) -> dict[str, object]:
+    """Return the intensity measures; none of a motion that is zero throughout, which has no duration."""
+    from fdspec.intensity import intensity
+
+    if motion.pga == 0.0:
+        return {}
+    found = intensity(motion)
+    return {
+        "pgv_m_per_s": found.pgv,
+        "pgd_m": found.pgd,
+        "arias_m_per_s": found.arias,
+        "significant_duration_s": found.significant_duration,
+        "cav_m_per_s": found.cav,
+    }
+
+
+def _draw(motion: GroundMotion, path: Path) -> None:
+    from fdspec.cli.record_spectra import drawn_spectra
+    from fdspec.figures import plot_record
+
+    save_picture(plot_record(motion, drawn_spectra([motion], DAMPING)), path)
+
+
+def _lines(about: dict[str, object]) -> str:
     width = max(map(len, about))
+    told = []
     for key, value in about.items():
         lines = value if isinstance(value, list) else [f"{value:.6g}" if isinstance(value, float) else value]
-        for head, line in zip([key, *[""] * len(lines)], lines, strict=False):
-            click.echo(f"{head:<{width}}  {line}".rstrip())
+        told += [
+            f"{head:<{width}}  {line}".rstrip()
+            for head, line in zip([key, *[""] * len(lines)], lines, strict=False)
+        ]
+    return "\n".join(told)

@@ -20,6 +20,9 @@ STUDY: Final = "Numerical methodology for dynamic analysis of buildings with fri
 STAND_IN: Final = "stand-in for "
 """How the source of a ground motion begins when the motion stands in for a record that cannot be shipped."""
 
+OWN: Final = "the user's own "
+"""How the source begins when a record of the study is read from a file that its user linked."""
+
 
 class Motion(Protocol):
     """What provenance tells of a ground motion."""
@@ -64,7 +67,8 @@ def provenance(
     command : str
         What was called, for the line of history: ``fdspec.sweep``.
     comment : str
-        What else a reader must know. That records are stand-ins is told in any case.
+        What else a reader must know. Which records are stand-ins, and which of the study's are the user's own
+        files, is told in any case.
     now : datetime, optional
         Time of creation with its zone. Otherwise SOURCE_DATE_EPOCH where it is set, for files that repeat
         to the byte, else the clock.
@@ -91,7 +95,7 @@ def provenance(
         for motion in applied
     ]
     content = {**{name: _plain(name, value) for name, value in parameters.items()}, "records": records}
-    comments = (_stand_ins(applied), comment)
+    comments = (origins(applied), comment)
     attributes = {
         "Conventions": "CF-1.11",
         "title": title,
@@ -105,14 +109,23 @@ def provenance(
     return {name: text for name, text in attributes.items() if text}
 
 
-def _stand_ins(motions: Iterable[Motion]) -> str:
-    names = [motion.name for motion in motions if motion.source.startswith(STAND_IN)]
-    if not names:
-        return ""
-    return (
-        f"Stand-ins: {', '.join(names)}. Each is another real record of the same earthquake; "
-        "the study's own files cannot be shipped."
-    )
+def origins(motions: Iterable[Motion]) -> str:
+    """Say which of the study's records were read from the user's own files, and which are stand-ins.
+
+    Empty when there are neither; files read by their path are nobody's stand-ins.
+    """
+    known = tuple(motions)
+    own = [motion.name for motion in known if motion.source.startswith(OWN)]
+    stand_ins = [motion.name for motion in known if motion.source.startswith(STAND_IN)]
+    told = []
+    if own:
+        told.append(f"The study's records, from the user's own files: {', '.join(own)}.")
+    if stand_ins:
+        told.append(
+            f"Stand-ins: {', '.join(stand_ins)}. Each is another real record of the same earthquake; "
+            "the study's own files cannot be shipped."
+        )
+    return " ".join(told)
 
 
 def _created(now: datetime | None) -> str:

@@ -1,0 +1,96 @@
+"""`fdspec records convert`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+from fdspec.cli.output import force_option, free
+from fdspec.cli.record_options import file_options, named_records
+
+if TYPE_CHECKING:
+    from fdspec.motion import GroundMotion
+
+
+@click.command("convert")
+@click.argument("record", metavar="FILE|NAME")
+@click.option(
+    "-o",
+    "--output",
+    required=True,
+    metavar="FILE",
+    help="What to write: .at2 is PEER's layout in g, .txt two columns, s and m/s2.",
+)
+@file_options
+@click.option("--raw", is_flag=True, help="A catalogue's record as recorded, not scaled to the study's PGA.")
+@click.option("--trim", type=float, nargs=2, metavar="S S", help="Keep from one time to another, s.")
+@click.option("--baseline", type=int, metavar="ORDER", help="Take out a polynomial that fits the velocity.")
+@click.option("--band-pass", type=float, nargs=2, metavar="HZ HZ", help="Butterworth of order 4, no delay.")
+@click.option("--resample", type=float, metavar="S", help="Another time step, s.")
+@click.option("--pad", type=float, nargs=2, metavar="S S", help="Zeros before and after, s.")
+@click.option("--factor", type=float, metavar="X", help="Scale by a factor; -1 mirrors.")
+@click.option("--pga", type=float, metavar="M/S2", help="Scale to a peak, m/s2.")
+@click.option("--pga-g", type=float, metavar="G", help="Scale to a peak, g.")
+@force_option
+def convert_record(
+    record: str,
+    output: str,
+    units: str | None,
+    dt: float | None,
+    channel: str | None,
+    raw: bool,
+    trim: tuple[float, float] | None,
+    baseline: int | None,
+    band_pass: tuple[float, float] | None,
+    resample: float | None,
+    pad: tuple[float, float] | None,
+    factor: float | None,
+    pga: float | None,
+    pga_g: float | None,
+    force: bool,
+) -> None:
+    """Write a record of any format as PEER AT2 or as two columns, changed on the way where an option says so.
+
+    The steps are taken in the order of the options below, whatever their order on the command line.
+
+    \b
+    Example:
+        fdspec records convert CE58667.V2 --channel "Chan 1" --trim 5 40 -o trimmed.at2
+    """
+    if sum(given is not None for given in (factor, pga, pga_g)) > 1:
+        raise click.UsageError("Give one of --factor, --pga and --pga-g.")
+    path = free(output, force=force, suffixes=(".at2", ".txt"))
+
+    from fdspec import processing
+    from fdspec.records.writing import write_record
+    from fdspec.study import find_record
+    from fdspec.units import G
+
+    (named,) = named_records([record], units, dt, channel)
+    motion = find_record(named, scaled=not raw)
+    if trim is not None:
+        motion = processing.trimmed(motion, *trim)
+    if baseline is not None:
+        motion = processing.baseline_corrected(motion, baseline)
+    if band_pass is not None:
+        motion = processing.band_passed(motion, *band_pass)
+    if resample is not None:
+        motion = processing.resampled(motion, resample)
+    if pad is not None:
+        motion = processing.padded(motion, *pad)
+    if factor is not None:
+        motion = motion.scaled(factor)
+    if pga is not None:
+        motion = motion.scaled_to_pga(pga)
+    if pga_g is not None:
+        motion = motion.scaled_to_pga(pga_g * G)
+    write_record(motion, path)
+    click.echo(_written(motion, str(path)))
+
+
+def _written(motion: GroundMotion, path: str) -> str:
+    from fdspec.units import G
+
+    about = f"{motion.n} samples, dt {motion.dt:g} s, PGA {motion.pga / G:.4g} g"
+    return "\n".join([f"{path}: {about}", *(f"  {step}" for step in motion.history)])
