@@ -10,8 +10,8 @@ from hypothesis import settings
 
 SHARED = Path(__file__).resolve().parents[2] / "shared"
 
-# Records that a developer has linked would change what the catalogue's names give. No fixture: some tests load
-# records when they are collected.
+# Records that a developer has linked would change what the catalogue's names give. No fixture: some tests
+# load records when they are collected.
 os.environ["FDSPEC_RECORDS"] = str(Path(tempfile.gettempdir()) / f"fdspec-{uuid.uuid4().hex}" / "none.toml")
 
 # No deadline: the first call of a kernel compiles it. CI draws the same examples in every run.

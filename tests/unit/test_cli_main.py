@@ -130,7 +130,7 @@ def test_help_lists_every_command(capsys: pytest.CaptureFixture[str]) -> None:
     [
         *(["--help"], ["--version"], ["records", "--help"]),
         *([name, "--help"] for name in COMMANDS),
-        *(["records", name, "--help"] for name in ("list", "show")),
+        *(["records", name, "--help"] for name in ("list", "show", "check", "convert", "figures")),
     ],
     ids=" ".join,
 )

@@ -84,6 +84,22 @@ def test_stand_ins_are_told():
     )
 
 
+def test_the_user_s_own_files_are_told_from_stand_ins():
+    own = [
+        GroundMotion([0.0, 1.0], 0.01, name=name, source=f"the user's own {name}: x.AT2 (PEER AT2)")
+        for name in ("FSR1", "FMR2")
+    ]
+    motions = [own[0], fdspec.load_record("FSR2"), own[1], MOTION]
+    assert provenance("x", {}, motions)["comment"] == (
+        "The study's records, from the user's own files: FSR1, FMR2. "
+        "Stand-ins: FSR2. Each is another real record of the same earthquake; "
+        "the study's own files cannot be shipped."
+    )
+    assert provenance("x", {}, own)["comment"] == (
+        "The study's records, from the user's own files: FSR1, FMR2."
+    )
+
+
 def test_comment_alone():
     assert provenance("x", {}, [MOTION], comment="Trial.")["comment"] == "Trial."
 
