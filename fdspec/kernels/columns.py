@@ -9,26 +9,18 @@ from __future__ import annotations
 import numpy as np
 from numba import types
 
-from fdspec.jit import entry, float1d, float2d, ground1d, inner, int1d
-from fdspec.kernels.bounds import floor_peaks
+from fdspec.jit import entry, float1d, float2d, ground1d, int1d
+from fdspec.kernels.crests import N_CREST, QUANTITIES, keep_crests, settle_crests
 from fdspec.kernels.energy import put_losses
 from fdspec.kernels.oscillator import TERMS, step_map
 from fdspec.kernels.packed import (
     ALERT,
     CREST,
-    END_A,
-    END_S,
-    END_U,
-    END_V,
-    END_W,
-    END_X,
     HELD,
-    LIFT,
     N_ROWS,
-    PUSH_FLOOR,
     WIDTH,
     accept_lanes,
-    count_alerts,
+    any_alert,
     loss_lanes,
     put_lane,
     put_state,
@@ -42,7 +34,7 @@ from fdspec.kernels.packed import (
 from fdspec.kernels.plan import plan, steps_per_sample
 from fdspec.kernels.sdof import finish
 from fdspec.kernels.shelf import put_numbers, put_plan, take_plan
-from fdspec.kernels.types import N_STATE, OFFSET, OK, PHASE, STATUS, STICK, Force, Motion, Peaks, Storey, U, V
+from fdspec.kernels.types import N_STATE, OK, PHASE, STATUS, STICK, Storey
 from fdspec.kernels.walk import walk
 
 
@@ -64,34 +56,6 @@ def prepare(storeys, dt, radians, certify, parts, shelf, forms, stride):
         forms[i] = 0.0
         if certify:
             put_losses(scheme, forms[i])
-
-
-@inner
-def see_crest(p, lane, plan, ground, rate, floor, search):
-    """Look for the floor's extrema inside a quiet step of one lane and put its peaks right."""
-    phase = p[PHASE * WIDTH + lane]
-    start = Motion(p[U * WIDTH + lane], p[V * WIDTH + lane], 0.0, 0.0)
-    end = Motion(p[END_U * WIDTH + lane], p[END_V * WIDTH + lane], 0.0, 0.0)
-    peaks = Peaks(
-        p[END_A * WIDTH + lane],
-        p[END_X * WIDTH + lane],
-        p[END_W * WIDTH + lane],
-        p[END_S * WIDTH + lane],
-    )
-    if phase == STICK:
-        base = p[LIFT * WIDTH + lane] * p[OFFSET * WIDTH + lane]
-        branch, mass, order = plan.stick, plan.mass, plan.stick_order
-    else:
-        base = -phase * p[PUSH_FLOOR * WIDTH + lane]
-        branch, mass, order = plan.floor, 0.0, plan.floor_order
-    force = Force(base - ground, -rate, 0.0, 0.0)
-    peaks = floor_peaks(
-        branch, base, mass, floor, search, int(order), 0.0, start, end, force, plan.step, peaks
-    )
-    p[END_A * WIDTH + lane] = peaks.acceleration
-    p[END_X * WIDTH + lane] = peaks.displacement
-    p[END_W * WIDTH + lane] = peaks.velocity
-    p[END_S * WIDTH + lane] = peaks.shear
 
 
 @entry(
@@ -119,6 +83,7 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, energy, certify, results,
     count = shelf.shape[0]
     p = np.empty(N_ROWS * WIDTH)
     states = np.zeros((WIDTH, N_STATE))
+    crests = np.zeros((WIDTH, len(QUANTITIES), N_CREST))
     floor, brace, search = np.empty(TERMS), np.empty(TERMS), np.empty(TERMS)
     times, phases, traces = np.empty(0), np.empty(0, np.int64), np.empty((0, 0))
     slipping = 0
@@ -143,14 +108,14 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, energy, certify, results,
                 work_lanes(p, step, start, rate)
             if certify:
                 loss_lanes(p, start, rate)
-            if count_alerts(p) == 0.0:
+            if not any_alert(p):
                 accept_lanes(p, energy, certify)
                 continue
             for lane in range(count):
                 if p[ALERT * WIDTH + lane] > 0.0:
                     take_state(p, lane, states[lane])
                 elif p[CREST * WIDTH + lane] > 0.0:
-                    see_crest(p, lane, take_plan(shelf, lane), start, rate, floor, search)
+                    keep_crests(p, lane, take_plan(shelf, lane), crests, start, rate, floor, search)
             accept_lanes(p, energy, certify)
             for lane in range(count):
                 if p[ALERT * WIDTH + lane] > 0.0:
@@ -182,6 +147,7 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, energy, certify, results,
                         after = False
                     slipping += (1 if after else 0) - (1 if before else 0)
     for lane in range(count):
+        settle_crests(p, lane, take_plan(shelf, lane), crests, floor, search)
         if states[lane, STATUS] == OK:
             take_state(p, lane, states[lane])
         finish(take_plan(shelf, lane).storey, states[lane], certify, results[lane])

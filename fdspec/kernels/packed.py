@@ -47,10 +47,10 @@ TAIL = 1.0 / 288.0
 
 # Rows behind the state: where a step would lead, and whether a lane must walk it.
 _AT = N_STATE
-END_U, END_V, END_D, END_E, END_A, END_X, END_W, END_S, END_INPUT, END_VISCOUS, ALERT, CREST, HELD = range(
-    _AT, _AT + 13
-)
-_AT += 13
+END_U, END_V, END_D, END_E, END_A, END_X, END_W, END_S, END_INPUT, END_VISCOUS = range(_AT, _AT + 10)
+_AT += 10
+ALERT, CREST, CREST_U, CREST_V, CREST_Q, HELD = range(_AT, _AT + 6)
+_AT += 6
 # Constants of the storey.
 LIMIT, PUSH_FLOOR, PUSH_BRACE, LIFT, MASS, FLOOR_MASS, BRACE_MASS, LIGHT, MUST_WALK = range(_AT, _AT + 9)
 _AT += 9
@@ -176,7 +176,7 @@ def start_lane(p, lane):
 
 @inner
 def rest_lane(p, lane):
-    """Make a lane quiet for good: sticking, no slip force to reach, no peak to pass.  Its numbers serve nobody."""
+    """Make a lane quiet for good: sticking, no slip force to reach, no peak to pass."""
     p[LIMIT * WIDTH + lane] = math.inf
     start_lane(p, lane)
     for row in range(PEAK_ACCELERATION, PEAK_SHEAR + 1):
@@ -255,12 +255,15 @@ def stick_lanes(p, h, ground, rate):
         p[END_S * WIDTH + lane] = top_s
         p[ALERT * WIDTH + lane] = alert
         p[CREST * WIDTH + lane] = peak
+        p[CREST_U * WIDTH + lane] = crest_u
+        p[CREST_V * WIDTH + lane] = crest_v
+        p[CREST_Q * WIDTH + lane] = crest_q
         p[HELD * WIDTH + lane] = max(at(p, HELD, lane), held)
 
 
 @inner
 def slip_lanes(p, h, ground, rate):
-    """Advance every slipping lane by a step; ALERT where it may stop, CREST where a peak of the floor may pass."""
+    """Advance every slipping lane by a step; ALERT where it may stop, CREST where a peak may pass."""
     third = h * THIRD
     ground_end = ground + rate * h
     steep = abs(rate)
@@ -325,6 +328,9 @@ def slip_lanes(p, h, ground, rate):
         p[END_S * WIDTH + lane] = shear if slips else at(p, END_S, lane)
         p[ALERT * WIDTH + lane] = alert if slips else at(p, ALERT, lane)
         p[CREST * WIDTH + lane] = peak if slips else at(p, CREST, lane)
+        p[CREST_U * WIDTH + lane] = crest_u if slips else at(p, CREST_U, lane)
+        p[CREST_V * WIDTH + lane] = crest_v if slips else at(p, CREST_V, lane)
+        p[CREST_Q * WIDTH + lane] = crest_q if slips else at(p, CREST_Q, lane)
 
 
 @inner
@@ -366,12 +372,12 @@ def loss_lanes(p, ground, rate):
 
 
 @inner
-def count_alerts(p):
-    """How many reasons there are to look at single lanes in this step."""
-    alerts = 0.0
+def any_alert(p):
+    """Whether there is reason to look at single lanes in this step."""
+    found = 0  # an integer: a sum of floats would be taken one by one, in order
     for lane in range(WIDTH):
-        alerts += at(p, ALERT, lane) + at(p, CREST, lane)
-    return alerts
+        found |= 1 if at(p, ALERT, lane) + at(p, CREST, lane) > 0.0 else 0
+    return found != 0
 
 
 @inner
