@@ -61,6 +61,8 @@ def draw_records(
     named = named_records(records or STUDY_RECORDS, units, dt, channel)
     motions = [find_record(record, scaled=not raw) for record in named]
     note = origins(motions)
-    save_picture(plot_histories(motions, note=note), paths[0])
-    save_picture(plot_spectra(drawn_spectra(motions, [damping_ratio]), note=note), paths[1])
+    spectra = drawn_spectra(motions, [damping_ratio])
+    pictures = plot_histories(motions, note=note), plot_spectra(spectra, note=note)
+    for picture, path in zip(pictures, paths, strict=True):
+        save_picture(picture, path)
     click.echo("\n".join(map(str, paths)))
