@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from fdspec.store.netcdf import open, save  # noqa: A004
     from fdspec.study import Study
     from fdspec.sweep import sweep
+    from fdspec.sweep_buildings import sweep_buildings
 
 __all__ = [
     "Building",
@@ -35,6 +36,7 @@ __all__ = [
     "save",
     "simulate",
     "sweep",
+    "sweep_buildings",
 ]
 
 _HOME = {
@@ -51,6 +53,7 @@ _HOME = {
     "save": "store",
     "simulate": "simulate",
     "sweep": "sweep",
+    "sweep_buildings": "sweep_buildings",
 }
 
 

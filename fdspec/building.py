@@ -370,6 +370,20 @@ class Building:
         )
         return Frame(_read_only(np.stack(rows)), stiffness.dense, damping.dense)
 
+    @property
+    def parameters(self) -> dict[str, Array]:
+        """All that an answer depends on, by name, SI units: for a file that says where it comes from."""
+        return {
+            "floor_mass": self.floor_mass,
+            "stiffness_matrix": self.stiffness_matrix,
+            "damping_matrix": self.damping_matrix,
+            "brace_mass": self.brace_mass,
+            "brace_stiffness": self.brace_stiffness,
+            "brace_damping": self.brace_damping,
+            "slip_force": self.slip_force,
+            "kinetic_slip_force": self.kinetic_slip_force,
+        }
+
     def _identity(self) -> tuple[Any, ...]:
         arrays = (
             self.floor_mass,

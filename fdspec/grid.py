@@ -144,38 +144,41 @@ def _scaled(pretension: FloatArray, factor: float) -> FloatArray:
     return scaled
 
 
-def _axis(value: object, *, zero: bool = False, infinite: bool = False) -> FloatArray:
-    """Check one axis: numbers, one dimension, finite, positive, strictly increasing."""
+def axis(value: object, *, zero: bool = False, infinite: bool = False) -> FloatArray:
+    """Return one axis, checked: numbers, one dimension, finite, positive, strictly increasing.
+
+    zero, infinite: whether these are allowed too.  Raises ValueError.
+    """
     try:
-        axis = np.array(value, ndmin=1)
+        values = np.array(value, ndmin=1)
     except ValueError:
         raise ValueError("must be a list of numbers, all at one level") from None
-    if axis.size == 0:
+    if values.size == 0:
         raise ValueError("must hold at least one value, is empty")
-    if axis.dtype.kind not in "iuf":
+    if values.dtype.kind not in "iuf":
         raise ValueError(f"must be a list of numbers, got {value!r:.60}")
-    if axis.ndim != 1:
-        raise ValueError(f"must be a list of numbers, got an array of shape {axis.shape}")
-    axis = np.ascontiguousarray(axis, dtype=np.float64)
-    _first(axis, np.isnan(axis), "must be numbers")
+    if values.ndim != 1:
+        raise ValueError(f"must be a list of numbers, got an array of shape {values.shape}")
+    values = np.ascontiguousarray(values, dtype=np.float64)
+    _first(values, np.isnan(values), "must be numbers")
     if not infinite:
-        _first(axis, np.isinf(axis), "must be finite")
+        _first(values, np.isinf(values), "must be finite")
     if zero:
-        _first(axis, axis < 0.0, "must be zero or positive")
+        _first(values, values < 0.0, "must be zero or positive")
     else:
-        _first(axis, axis <= 0.0, "must be positive")
-    repeated = np.flatnonzero(axis[1:] == axis[:-1])
+        _first(values, values <= 0.0, "must be positive")
+    repeated = np.flatnonzero(values[1:] == values[:-1])
     if repeated.size:
         k = int(repeated[0])
-        raise ValueError(f"values must differ, {axis[k]:.12g} stands at index {k} and {k + 1}")
-    falling = np.flatnonzero(axis[1:] < axis[:-1])
+        raise ValueError(f"values must differ, {values[k]:.12g} stands at index {k} and {k + 1}")
+    falling = np.flatnonzero(values[1:] < values[:-1])
     if falling.size:
         k = int(falling[0])
         raise ValueError(
-            f"values must increase, got {axis[k + 1]:.12g} at index {k + 1} after {axis[k]:.12g}"
+            f"values must increase, got {values[k + 1]:.12g} at index {k + 1} after {values[k]:.12g}"
         )
-    axis.flags.writeable = False
-    return axis
+    values.flags.writeable = False
+    return values
 
 
 def _first(axis: FloatArray, wrong: NDArray[np.bool_], what: str) -> None:
@@ -204,9 +207,9 @@ def _optional_number(value: object) -> float | None:
 
 
 _CHECKS: Final[Mapping[str, Callable[[object], FloatArray | float | None]]] = {
-    "stiffness_ratio": _axis,
-    "pretension": lambda value: _axis(value, zero=True, infinite=True),
-    "period": _axis,
+    "stiffness_ratio": axis,
+    "pretension": lambda value: axis(value, zero=True, infinite=True),
+    "period": axis,
     "floor_mass": _number,
     "brace_mass": lambda value: _number(value, zero=True),
     "damping_ratio": lambda value: _number(value, zero=True, below=1.0),

@@ -1,15 +1,47 @@
-"""The N-storey engine behind `simulate`: hands the kernel its arrays and takes them back."""
+"""The N-storey engine: hands the kernel its arrays and takes them back."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from fdspec.building import Building
+from fdspec.building import Building, Frame
 from fdspec.course import Course, FloatArray, IntArray, Span
 from fdspec.errors import InvalidInput
 from fdspec.kernels.frame_traces import STOREY_TRACES, TOTAL_TRACES
 from fdspec.kernels.mdof import RADIANS, STOREY_RESULTS, TOTALS, integrate
 from fdspec.motion import GroundMotion
+
+
+def peaks_of(frame: Frame, motion: GroundMotion, *, certify: bool) -> tuple[FloatArray, FloatArray]:
+    """Integrate a frame from rest, without its course in time.
+
+    certify: whether the balance of all energies is wanted.  Returns the rows of STOREY_RESULTS for each
+    storey (rows, N), and TOTALS.
+    """
+    size = frame.properties.shape[1]
+    by_storey = np.empty((len(STOREY_RESULTS), size))
+    totals = np.empty(len(TOTALS))
+    integrate(
+        frame.properties,
+        frame.dense_stiffness,
+        frame.dense_damping,
+        motion.acceleration,
+        motion.dt,
+        0,
+        certify,
+        np.zeros((4, size)),
+        RADIANS,
+        0,
+        np.empty(0),
+        np.empty(0, np.int64),
+        np.empty(0, np.int64),
+        motion.dt,
+        np.empty((0, len(STOREY_TRACES), size)),
+        np.empty((0, len(TOTAL_TRACES))),
+        by_storey,
+        totals,
+    )
+    return by_storey, totals
 
 
 def integrate_many_storeys(

@@ -96,7 +96,7 @@ def simulate(
     return _dataset(building, motion, span, start, course)
 
 
-def _span(motion: GroundMotion, dt_out: float | None, free_vibration: float) -> Span:
+def _span(motion: GroundMotion, dt_out: object, free_vibration: object) -> Span:
     if not (isinstance(free_vibration, int | float) and 0.0 <= free_vibration < math.inf):
         raise InvalidInput(f"free_vibration must be zero or a positive time in s, got {free_vibration!r}")
     every = motion.dt if dt_out is None else dt_out
@@ -212,14 +212,7 @@ def _dataset(
     dataset.attrs = provenance(
         "Response history of a building with friction dampers",
         {
-            "floor_mass": building.floor_mass,
-            "stiffness_matrix": building.stiffness_matrix,
-            "damping_matrix": building.damping_matrix,
-            "brace_mass": building.brace_mass,
-            "brace_stiffness": building.brace_stiffness,
-            "brace_damping": building.brace_damping,
-            "slip_force": building.slip_force,
-            "kinetic_slip_force": building.kinetic_slip_force,
+            **building.parameters,
             "dt_out": span.dt_out,
             "free_steps": span.free_steps,
             "initial_displacement": start[0],

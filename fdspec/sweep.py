@@ -1,33 +1,25 @@
-"""Grid and ground motions -> the cube: tasks of many histories each, fanned out by dask."""
+"""Grid and ground motions -> the cube of single-storey frames."""
 
 from __future__ import annotations
 
-import math
-import os
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
-from typing import Any, Final
+from collections.abc import Iterable, Sequence
+from functools import partial
+from typing import Final
 
-import dask
 import numpy as np
 import xarray as xr
-from dask.callbacks import Callback
 from numpy.typing import ArrayLike, NDArray
 
-from fdspec.errors import InvalidInput
+from fdspec.cube import assemble, chosen, named
+from fdspec.fanout import Task, cores, fan_out, plan
 from fdspec.grid import Grid
 from fdspec.motion import GroundMotion
-from fdspec.progress import progress as progress_bar
-from fdspec.store import provenance
-from fdspec.variables import CUBE, STUDY_DIMS, describe
+from fdspec.variables import CUBE, STUDY_DIMS
 
 FloatArray = NDArray[np.float64]
 
 SECONDS_PER_SAMPLE: Final = 12e-9
 """Core time of one history for each sample of its record, roughly; for plans, not for results."""
-
-TASK_SECONDS: Final = 0.2
-"""Aimed length of a task: long against what dask spends on one, short against the whole."""
 
 LIMITS: Final = ("elastic_acceleration", "braced_acceleration")
 RESPONSES: Final = tuple(v.name for v in CUBE.values() if v.dims == STUDY_DIMS)
@@ -113,81 +105,51 @@ def sweep(
         normal_force_factor=normal_force_factor,
         brace_damping_ratio=brace_damping_ratio,
     )
-    motions = _named(motions)
-    wanted = _wanted(outputs, certify)
-    for argument, value in (("workers", workers), ("columns_per_task", columns_per_task)):
-        if value is not None and value < 1:
-            raise InvalidInput(f"{argument} must be at least 1, got {value}")
-
-    tasks = [
-        (r, columns)
-        for r, motion in enumerate(motions)
-        for columns in _chunks(grid, motion, certify, columns_per_task)
-    ]
-    histories = len(motions) * grid.size
+    motions = named(motions)
+    wanted = chosen(outputs, OUTPUTS, certify)
+    n_sr, n_f, n_t = grid.shape
+    seconds = [_core_seconds(motion.n, grid, certify) for motion in motions]
+    tasks = plan(n_sr * n_t, seconds, columns_per_task, "columns_per_task")
     energy = certify or bool({"input_energy", "energy_error"} & set(wanted))
-    records = [dask.delayed(motion, pure=False, traverse=False) for motion in motions]
-    work = [
-        dask.delayed(_run_columns, pure=False)(grid, columns, records[r], energy, certify)
-        for r, columns in tasks
-    ]
-    with progress_bar(histories, "histories", shown=progress) as done, _reported(done):
-        _warm()
-        parts = dask.compute(*work, scheduler=scheduler, num_workers=workers or os.cpu_count())
-    return _assemble(grid, motions, tasks, parts, wanted, certify)
+    parts = fan_out(
+        partial(_run_columns, grid, energy, certify),
+        motions,
+        tasks,
+        each=n_f,
+        warm=_warm,
+        workers=workers,
+        scheduler=scheduler,
+        progress=progress,
+    )
+    parameters = {name: getattr(grid, name) for name in grid.__dataclass_fields__}
+    return assemble(
+        _variables(grid, len(motions), tasks, parts, wanted),
+        {
+            "stiffness_ratio": grid.stiffness_ratio,
+            "pretension": grid.pretension,
+            "period": grid.period,
+            "slip_force": grid.slip_force,
+            "kinetic_slip_force": grid.kinetic_slip_force,
+        },
+        CUBE,
+        motions,
+        title="Peak response of single-storey frames with friction dampers",
+        parameters={**parameters, "certify": certify, "outputs": list(wanted)},
+        command="fdspec.sweep",
+    )
 
 
 def estimate(motions: Sequence[GroundMotion], grid: Grid, certify: bool = True) -> float:
     """Wall seconds that a sweep is expected to take on this machine's cores, roughly."""
-    samples = sum(motion.n for motion in motions)
-    cost = samples * grid.size * SECONDS_PER_SAMPLE * (1.35 if certify else 1.0)
-    return cost / (os.cpu_count() or 1)
+    return _core_seconds(sum(motion.n for motion in motions), grid, certify) / cores()
+
+
+def _core_seconds(samples: int, grid: Grid, certify: bool) -> float:
+    return samples * grid.size * SECONDS_PER_SAMPLE * (1.35 if certify else 1.0)
 
 
 def _warm() -> None:
-    """Load the kernels, compiling them where no cache holds them, before many threads want them."""
     import fdspec.columns  # noqa: F401
-
-
-def _named(motions: GroundMotion | Sequence[GroundMotion]) -> tuple[GroundMotion, ...]:
-    given = (motions,) if isinstance(motions, GroundMotion) else tuple(motions)
-    if not given:
-        raise InvalidInput("motions must hold at least one GroundMotion, is empty")
-    for k, motion in enumerate(given):
-        if not isinstance(motion, GroundMotion):
-            raise InvalidInput(f"motions[{k}] must be a GroundMotion, got {type(motion).__name__}")
-    names = [motion.name for motion in given]
-    for k, name in enumerate(names):
-        if name in names[:k]:
-            raise InvalidInput(f"motions must have different names, {name!r} stands twice")
-    return given
-
-
-def _wanted(outputs: Iterable[str] | None, certify: bool) -> tuple[str, ...]:
-    names = OUTPUTS if outputs is None else tuple(outputs)
-    for name in names:
-        if name not in OUTPUTS:
-            raise InvalidInput(f"outputs: {name!r} is none of {', '.join(OUTPUTS)}")
-    kept = tuple(name for name in OUTPUTS if name in (*names, "status"))
-    return kept if certify else tuple(name for name in kept if name != "energy_error")
-
-
-def _chunks(
-    grid: Grid, motion: GroundMotion, certify: bool, columns_per_task: int | None
-) -> Iterator[NDArray[np.int64]]:
-    """Split the (stiffness ratio, period) pairs of one record into tasks.
-
-    Each task takes every n-th pair, so that stiff and soft frames, dear and cheap, share it.
-    """
-    n_sr, _, n_t = grid.shape
-    columns = n_sr * n_t
-    if columns_per_task is None:
-        seconds = estimate((motion,), grid, certify) * (os.cpu_count() or 1)
-        count = max(1, min(columns, round(seconds / TASK_SECONDS)))
-    else:
-        count = math.ceil(columns / columns_per_task)
-    for first in range(count):
-        yield np.arange(first, columns, count)
 
 
 def _frames(grid: Grid, columns: NDArray[np.int64]) -> FloatArray:
@@ -206,7 +168,7 @@ def _frames(grid: Grid, columns: NDArray[np.int64]) -> FloatArray:
 
 
 def _run_columns(
-    grid: Grid, columns: NDArray[np.int64], motion: GroundMotion, energy: bool, certify: bool
+    grid: Grid, energy: bool, certify: bool, columns: NDArray[np.int64], motion: GroundMotion
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Integrate some (stiffness ratio, period) pairs: all pretensions, never slipping, without brace."""
     from fdspec.columns import integrate_columns
@@ -221,31 +183,18 @@ def _run_columns(
     return results, braced[:, 0], free[:, 0]
 
 
-@contextmanager
-def _reported(done: Callable[[int], None]) -> Iterator[None]:
-    """Tell ``done`` of the histories that each finished task held."""
-
-    def posttask(key: Any, result: Any, dsk: Any, state: Any, worker_id: Any) -> None:  # noqa: ARG001
-        if isinstance(result, tuple):
-            done(result[0].shape[0] * result[0].shape[1])
-
-    with Callback(posttask=posttask):
-        yield
-
-
-def _assemble(
+def _variables(
     grid: Grid,
-    motions: Sequence[GroundMotion],
-    tasks: Sequence[tuple[int, NDArray[np.int64]]],
+    n_r: int,
+    tasks: Sequence[Task],
     parts: Sequence[tuple[FloatArray, FloatArray, FloatArray]],
     wanted: Sequence[str],
-    certify: bool,
-) -> xr.Dataset:
+) -> dict[str, NDArray[np.generic]]:
+    """Put what the tasks returned where it stands in the cube."""
     from fdspec.kernels.sdof import RESULTS
 
     n_sr, n_f, n_t = grid.shape
-    n_r = len(motions)
-    responses = {
+    responses: dict[str, NDArray[np.generic]] = {
         name: np.empty((n_r, n_sr, n_f, n_t), dtype=CUBE[name].dtype) for name in wanted if name in RESULTS
     }
     limits = {"braced_acceleration": np.empty((n_r, n_sr, n_t)), "elastic_acceleration": np.empty((n_r, n_t))}
@@ -255,39 +204,4 @@ def _assemble(
             values[r, ratio, :, period] = out[:, :, RESULTS.index(name)]
         limits["braced_acceleration"][r, ratio, period] = braced
         limits["elastic_acceleration"][r, columns[columns < n_t]] = free
-    variables: dict[str, Any] = {name: (STUDY_DIMS, values) for name, values in responses.items()}
-    variables |= {name: (CUBE[name].dims, limits[name]) for name in wanted if name in limits}
-    dataset = xr.Dataset(variables, coords=_coordinates(grid, motions))
-    parameters = {name: getattr(grid, name) for name in grid.__dataclass_fields__}
-    dataset.attrs = provenance(
-        "Peak response of single-storey frames with friction dampers",
-        {**parameters, "certify": certify, "outputs": list(wanted)},
-        motions,
-        command="fdspec.sweep",
-    )
-    return describe(dataset, CUBE)
-
-
-def _coordinates(grid: Grid, motions: Sequence[GroundMotion]) -> dict[str, Any]:
-    def told(of: Any) -> tuple[str, list[Any]]:
-        return ("record", [of(motion) for motion in motions])
-
-    return {
-        "record": [motion.name for motion in motions],
-        "stiffness_ratio": grid.stiffness_ratio,
-        "pretension": grid.pretension,
-        "period": grid.period,
-        "slip_force": ("pretension", grid.slip_force),
-        "kinetic_slip_force": ("pretension", grid.kinetic_slip_force),
-        "pga": told(lambda m: m.pga),
-        "dt": told(lambda m: m.dt),
-        "duration": told(lambda m: m.duration),
-        "samples": told(lambda m: m.n),
-        "scale_factor": told(lambda m: m.scale_factor),
-        "event": told(lambda m: m.event),
-        "station": told(lambda m: m.station),
-        "component": told(lambda m: m.component),
-        "source": told(lambda m: m.source),
-        "history": told(lambda m: "; ".join(m.history)),
-        "checksum": told(lambda m: m.checksum),
-    }
+    return responses | {name: limits[name] for name in wanted if name in limits}

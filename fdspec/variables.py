@@ -1,7 +1,8 @@
 """Every variable that fdspec puts into a Dataset: its dims, units, type and one sentence.
 
-`CUBE` holds what `sweep` returns, `HISTORY` what `simulate` returns; both map a name to a `Variable`.
-`describe` checks a Dataset against one of them and writes the CF attributes. A new output is one more entry.
+`CUBE` holds what `sweep` returns, `BUILDING_CUBE` what `sweep_buildings` returns, `HISTORY` what `simulate`
+returns; each maps a name to a `Variable`. `describe` checks a Dataset against one of them and writes the CF
+attributes. A new output is one more entry.
 """
 
 from __future__ import annotations
@@ -89,12 +90,13 @@ def motion_variables(dims: tuple[str, ...]) -> tuple[Variable, ...]:
 
 
 def response_variables(grid: tuple[str, ...], storey: tuple[str, ...] = ()) -> tuple[Variable, ...]:
-    """Return what one history leaves in a sweep over `grid`.
+    """Return what one history of a single storey or of a building leaves in a sweep over `grid`.
 
     `storey` holds the extra dims of what each storey has of its own: none for single-storey frames,
     ("storey",) for buildings.
     """
     each = (*grid, *storey)
+    dampers = "all dampers" if storey else "the damper"
     return (
         Variable("peak_acceleration", each, "m/s^2", "peak absolute acceleration of the floor"),
         Variable("peak_displacement", each, "m", "peak displacement of the floor relative to the ground"),
@@ -104,8 +106,8 @@ def response_variables(grid: tuple[str, ...], storey: tuple[str, ...] = ()) -> t
             "residual_displacement", each, "m", "final displacement of the floor relative to the ground"
         ),
         Variable("slip_travel", each, "m", "total distance slipped in the damper"),
-        Variable("transitions", each, "1", "number of changes of phase of the damper", "int64"),
-        Variable("dissipated_energy", each, "J", "energy dissipated by friction in the damper"),
+        Variable("transitions", grid, "1", f"number of changes of phase of {dampers}", "int64"),
+        Variable("dissipated_energy", grid, "J", f"energy dissipated by friction in {dampers}"),
         Variable("input_energy", grid, "J", "energy put in by the ground motion, in the ground's frame"),
         Variable("energy_error", grid, "1", "error of the energy balance relative to the input energy"),
         Variable("status", grid, "", "how the integration ended", "int8", _flags(STATUSES)),
@@ -140,6 +142,70 @@ CUBE: Final[Registry] = registry_of(
     ),
 )
 """The variables of a sweep over single-storey frames, dims (record, stiffness_ratio, pretension, period)."""
+
+BUILDING_DIMS: Final = ("record", "building", "stiffness_scale", "slip_scale")
+"""The dims of a cube of buildings, slowest first; ``storey`` comes after them where each has its own."""
+
+_EACH_STOREY: Final = (*BUILDING_DIMS, "storey")
+
+BUILDING_CUBE: Final[Registry] = registry_of(
+    motion_variables(("record",)),
+    (
+        Variable("building", ("building",), "", "name of the building", TEXT),
+        Variable("stiffness_scale", ("stiffness_scale",), "1", "factor on the stiffness of all braces"),
+        Variable("slip_scale", ("slip_scale",), "1", "factor on the slip forces of all dampers"),
+        Variable("storey", ("storey",), "1", "storey, counted from 1 at the ground", "int64"),
+        Variable(
+            "slip_force",
+            ("building", "slip_scale", "storey"),
+            "N",
+            "friction force at which the damper starts to slip",
+        ),
+        Variable(
+            "kinetic_slip_force",
+            ("building", "slip_scale", "storey"),
+            "N",
+            "friction force of the damper while it slips",
+        ),
+        Variable(
+            "brace_stiffness", ("building", "stiffness_scale", "storey"), "N/m", "stiffness of the brace"
+        ),
+        Variable("bare_period", ("building",), "s", "first natural period of the frame without braces"),
+        Variable(
+            "braced_period",
+            ("building", "stiffness_scale"),
+            "s",
+            "first natural period with dampers that never slip",
+        ),
+    ),
+    response_variables(BUILDING_DIMS, ("storey",)),
+    (
+        Variable(
+            "peak_drift", _EACH_STOREY, "m", "peak displacement of the floor relative to the floor below"
+        ),
+        Variable("peak_storey_shear", _EACH_STOREY, "N", "peak shear force of frame and brace together"),
+        Variable(
+            "residual_drift", _EACH_STOREY, "m", "final displacement of the floor relative to the floor below"
+        ),
+        Variable(
+            "storey_transitions", _EACH_STOREY, "1", "number of changes of phase of the damper", "int64"
+        ),
+        Variable("storey_friction_energy", _EACH_STOREY, "J", "energy dissipated by friction in the damper"),
+        Variable(
+            "elastic_acceleration",
+            ("record", "building", "storey"),
+            "m/s^2",
+            "peak absolute acceleration of the floor of the frame without braces",
+        ),
+        Variable(
+            "braced_acceleration",
+            ("record", "building", "stiffness_scale", "storey"),
+            "m/s^2",
+            "peak absolute acceleration of the floor with dampers that never slip",
+        ),
+    ),
+)
+"""The variables of a sweep over buildings, dims (record, building, stiffness_scale, slip_scale, storey)."""
 
 _OVER_TIME: Final = ("time",)
 _EACH: Final = ("time", "storey")

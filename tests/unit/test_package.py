@@ -36,7 +36,7 @@ def test_unknown_name_raises_attribute_error() -> None:
         _ = fdspec.swep
 
 
-@pytest.mark.parametrize("name", ["simulate", "sweep"])
+@pytest.mark.parametrize("name", ["simulate", "sweep", "sweep_buildings"])
 @pytest.mark.parametrize(
     "first", ["import fdspec.{0}", "from fdspec.{0} import {0}", "import fdspec; fdspec.{0}"]
 )
