@@ -59,13 +59,11 @@ def cache_folder() -> Path | None:
     then the system's temporary folder (read-only homes are common on clusters).
     """
     named = os.environ.get("FDSPEC_CACHE_DIR") or config.CACHE_DIR
-    home = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
+    home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
     user = f"fdspec-{os.getuid()}" if hasattr(os, "getuid") else "fdspec"
-    candidates = (
-        [named] if named else [os.path.join(home, "fdspec"), os.path.join(tempfile.gettempdir(), user)]
-    )
+    candidates = [Path(named)] if named else [home / "fdspec", Path(tempfile.gettempdir()) / user]
     for candidate in candidates:
-        folder = Path(candidate) / source_key()
+        folder = candidate / source_key()
         try:
             folder.mkdir(parents=True, exist_ok=True)
             with tempfile.TemporaryFile(dir=folder):

@@ -35,7 +35,7 @@ def integrate_single_storey(
             f"got {state.v:g} and {state.e:g} m/s"
         )
     result = np.empty(len(RESULTS))
-    no_times, no_phases, no_traces = np.empty(0), np.empty(0, np.int64), np.empty((0, len(TRACES)))
+    no_times, no_phases = np.empty(0), np.empty(0, np.int64)
 
     def run(
         times: FloatArray, phases: np.ndarray[tuple[int], np.dtype[np.int64]], traces: FloatArray

@@ -25,7 +25,7 @@ INVERSE = (0.0, *(1.0 / k for k in range(1, TERMS + 1)))
 
 
 class StepMap(NamedTuple):
-    """Displacement x, velocity v and the integral of x at a step's end, linear in x, v, p0, p1 at its start."""
+    """x, velocity v and the integral of x at a step's end, linear in x, v, p0, p1 at its start."""
 
     xx: float
     xv: float

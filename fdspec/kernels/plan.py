@@ -92,7 +92,7 @@ def parts_of(rate, time, radians):
 
 @inner
 def steps_per_sample(storey, dt, radians):
-    """Steps that a record step of dt is taken in: at most ``radians`` of floor and brace as one, and of the floor."""
+    """Steps in a record step of dt: each at most ``radians`` of the floor, with the brace or alone."""
     stick = branch(
         storey.floor_mass + storey.brace_mass,
         storey.floor_damping + storey.brace_damping,

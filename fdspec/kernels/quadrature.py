@@ -44,7 +44,7 @@ def series_area(c, n, h, x):
 
 @inner
 def series_square(c, n, h, x):
-    """Integral of velocity squared, of the displacement series c, over the first part x of a step of length h."""
+    """Integral of velocity squared over the first part x of a step of length h; c as above."""
     total = 0.0
     for j in range(len(NODES)):
         rise = value_slope(c, 0, n, x * NODES[j])[1]

@@ -82,7 +82,22 @@ def finish(storey, s, certify, result):
 
 @inner
 def history(
-    plan, forms, ground, dt, parts, free_steps, start, s, floor, brace, search, times, phases, dt_out, traces, result
+    plan,
+    forms,
+    ground,
+    dt,
+    parts,
+    free_steps,
+    start,
+    s,
+    floor,
+    brace,
+    search,
+    times,
+    phases,
+    dt_out,
+    traces,
+    result,
 ):
     """Integrate one history, with its energies, and fill ``result`` (see RESULTS).
 
@@ -109,7 +124,23 @@ def history(
         reach = BEYOND * plan.step if k + 1 == total else 0.0
         at = i * dt + j * plan.step
         written = walk(
-            plan, forms, s, at, a0, rate, True, True, floor, brace, search, times, phases, traces, dt_out, written, reach
+            plan,
+            forms,
+            s,
+            at,
+            a0,
+            rate,
+            True,
+            True,
+            floor,
+            brace,
+            search,
+            times,
+            phases,
+            traces,
+            dt_out,
+            written,
+            reach,
         )
         if s[STATUS] != OK:
             break

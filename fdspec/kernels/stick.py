@@ -60,4 +60,6 @@ def search_stick(plan, floor, gap, n, h, offset, touching):
 @inlined
 def stick_peaks(plan, floor, search, n, share, start, end, force, offset, h, peaks):
     """Peaks over a stick piece; base shear is the inertia of floor and brace as one."""
-    return floor_peaks(plan.stick, plan.lift * offset, plan.mass, floor, search, n, share, start, end, force, h, peaks)
+    return floor_peaks(
+        plan.stick, plan.lift * offset, plan.mass, floor, search, n, share, start, end, force, h, peaks
+    )

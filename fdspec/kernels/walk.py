@@ -206,10 +206,30 @@ def write_trace(plan, floor, brace, n, phase, offset, anchor, travel, so_far, ac
 
 
 @inner
-def walk(plan, forms, s, at, a0, rate, energy, certify, floor, brace, search, times, phases, traces, dt_out, written, reach):
+def walk(
+    plan,
+    forms,
+    s,
+    at,
+    a0,
+    rate,
+    energy,
+    certify,
+    floor,
+    brace,
+    search,
+    times,
+    phases,
+    traces,
+    dt_out,
+    written,
+    reach,
+):
     """Take the state ``s`` over one step; return the number of output rows written so far.
 
-    forms: the losses of the plan, (N_FORMS,), read where certify.  at: time of the step's start, s; a0, rate: ground acceleration there (m/s2) and its rate (m/s3).
+    forms: the losses of the plan, (N_FORMS,), read where certify.  at: time of the step's start, s;
+    a0, rate: ground acceleration there (m/s2) and its rate (m/s3).  energy, certify: whether the work of
+    the ground, and of the viscous dampers, is kept.  floor, brace, search: room for series, (TERMS,).
     times, phases: changes of phase, as far as they have room.  traces (m, len(TRACES)): row k is
     written at k dt_out once that is not later than ``reach`` past what has been walked; with m = 0
     nothing is written, else every piece is expanded.
@@ -253,7 +273,9 @@ def walk(plan, forms, s, at, a0, rate, energy, certify, floor, brace, search, ti
                 if phase == STICK:
                     peaks = stick_peaks(plan, floor, search, order, 0.0, motion, end, force, offset, h, peaks)
                 else:
-                    peaks = slip_peaks(plan, floor, brace, search, order, 0.0, motion, end, force, phase, h, peaks)
+                    peaks = slip_peaks(
+                        plan, floor, brace, search, order, 0.0, motion, end, force, phase, h, peaks
+                    )
                 if energy:
                     done, lost = whole_piece_work(
                         plan, forms, phase, motion, end, force, acceleration, rate, h, certify
