@@ -5,7 +5,17 @@ from collections.abc import Iterable
 import numpy as np
 import xarray as xr
 
-from fdspec.variables import CUBE, HISTORY, STUDY_DIMS, TEXT, Registry, Variable, describe
+from fdspec.variables import (
+    BUILDING_CUBE,
+    BUILDING_DIMS,
+    CUBE,
+    HISTORY,
+    STUDY_DIMS,
+    TEXT,
+    Registry,
+    Variable,
+    describe,
+)
 
 RECORDS = ("FSR1", "FMR2", "İzmit 1")
 
@@ -33,6 +43,21 @@ def synthetic_cube(
         "period": 0.05 * np.arange(1, shape[2] + 1),
     }
     return _filled(CUBE, sizes, known, set(STUDY_DIMS), seed)
+
+
+def synthetic_building_cube(
+    records: Iterable[str] = RECORDS, buildings: Iterable[str] = ("office", "hôtel 2"), seed: int = 0
+) -> xr.Dataset:
+    """Return a cube of buildings of random numbers with every variable of the registry."""
+    known = {
+        "record": np.array(list(records)),
+        "building": np.array(list(buildings)),
+        "stiffness_scale": np.array([0.5, 1.0, 2.0]),
+        "slip_scale": np.array([0.0, 0.5, 1.0, np.inf]),
+        "storey": np.arange(1, 4),
+    }
+    sizes = {name: values.size for name, values in known.items()}
+    return _filled(BUILDING_CUBE, sizes, known, {*BUILDING_DIMS, "storey"}, seed)
 
 
 def synthetic_history(

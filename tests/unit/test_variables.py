@@ -7,6 +7,8 @@ import xarray as xr
 from fdspec.errors import InvalidInput
 from fdspec.kernels import types
 from fdspec.variables import (
+    BUILDING_CUBE,
+    BUILDING_DIMS,
     CUBE,
     HISTORY,
     PHASES,
@@ -17,7 +19,7 @@ from fdspec.variables import (
     response_variables,
 )
 
-UNITS = {"m/s^2", "m", "m/s", "N", "J", "s", "kg", "1"}
+UNITS = {"m/s^2", "m", "m/s", "N", "N/m", "J", "s", "kg", "1"}
 CONTRACT_OF_SWEEP = [
     "peak_acceleration",
     "peak_displacement",
@@ -33,7 +35,9 @@ CONTRACT_OF_SWEEP = [
 ]
 
 
-@pytest.mark.parametrize("registry", [CUBE, HISTORY], ids=["cube", "history"])
+@pytest.mark.parametrize(
+    "registry", [CUBE, BUILDING_CUBE, HISTORY], ids=["cube", "cube of buildings", "history"]
+)
 def test_every_variable_has_a_sentence_and_a_known_unit(registry):
     for name, variable in registry.items():
         assert variable.name == name
@@ -47,11 +51,19 @@ def test_every_variable_has_a_sentence_and_a_known_unit(registry):
             assert variable.units in UNITS
 
 
-@pytest.mark.parametrize("registry", [CUBE, HISTORY], ids=["cube", "history"])
-def test_same_name_means_same_unit_in_both(registry):
-    for name in set(CUBE) & set(HISTORY):
-        assert CUBE[name].units == HISTORY[name].units
-        assert CUBE[name].dtype == HISTORY[name].dtype
+@pytest.mark.parametrize("registry", [CUBE, BUILDING_CUBE], ids=["cube", "cube of buildings"])
+def test_same_name_means_same_unit_in_all(registry):
+    for name in set(registry) & set(HISTORY):
+        assert registry[name].units == HISTORY[name].units
+        assert registry[name].dtype == HISTORY[name].dtype
+    for name in set(registry) & set(CUBE):
+        assert registry[name].units == CUBE[name].units
+
+
+def test_what_a_cube_of_buildings_tells_of_a_storey_a_history_tells_too():
+    for name in set(BUILDING_CUBE) & set(HISTORY):
+        if BUILDING_CUBE[name].dims[:4] == BUILDING_DIMS:
+            assert ("storey" in BUILDING_CUBE[name].dims) == ("storey" in HISTORY[name].dims), name
 
 
 @pytest.mark.parametrize("name", CONTRACT_OF_SWEEP)

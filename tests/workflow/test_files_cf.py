@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from fdspec import store
-from tests.cubes import synthetic_cube, synthetic_history
+from tests.cubes import synthetic_building_cube, synthetic_cube, synthetic_history
 
 CHECKER = Path(sys.executable).with_name("compliance-checker")
 
@@ -41,8 +41,13 @@ def complaints(path: Path, report: Path) -> list[str]:
 
 @pytest.mark.parametrize(
     "dataset",
-    [synthetic_cube(), synthetic_history(), synthetic_history(transitions=0, storeys=1)],
-    ids=["cube", "history", "history without transitions"],
+    [
+        synthetic_cube(),
+        synthetic_building_cube(),
+        synthetic_history(),
+        synthetic_history(transitions=0, storeys=1),
+    ],
+    ids=["cube", "cube of buildings", "history", "history without transitions"],
 )
 def test_saved_files(tmp_path, dataset):
     path = tmp_path / "file.nc"
