@@ -29,6 +29,9 @@ TAIL = 1.0 / 288.0
 SMALLEST_INTERVAL = 2.0**-40
 """Where an interval this short is still undecided, values at its ends decide: p is then zero to rounding."""
 
+ROUNDING = 2.0**-53
+"""What a sum is off by at least, relative to the sum of its terms' magnitudes."""
+
 NEWTON_STEPS = 60
 """Newton needs 3 to 6; a step that leaves the bracket halves it, so this many always suffice."""
 
@@ -207,10 +210,12 @@ def first_root(c, lo, n, sign):
 
 
 @inner
-def largest(c, n, sign, end, end_slope, fourth, best):
+def largest(c, n, sign, end, end_slope, fourth, rounding, best):
     """The greater of ``best`` and the maximum of sign p(x) over [0, 1].
 
-    end, end_slope: value and slope of p at 1; fourth: a bound on |p''''|.
+    end, end_slope: value and slope of p at 1; fourth: a bound on |p''''|; rounding: what p is off by
+    anyway.  A maximum no further above ``best`` is not looked for: next to a zero of high order no bound
+    is ever below zero.
     """
     x = 0.0
     height = sign * c[0]
@@ -230,7 +235,7 @@ def largest(c, n, sign, end, end_slope, fourth, best):
         slope_y *= sign
         best = max(best, height_y)
         inside = max(height + w * slope / 3.0, height_y - w * slope_y / 3.0)
-        if inside + fourth * w**4 * TAIL > best:
+        if inside + fourth * w**4 * TAIL > best + rounding:
             bend = sign * curvature(c, 0, n, x)
             bend_y = sign * curvature(c, 0, n, y)
             margin = fourth * w * w / 8.0
@@ -253,5 +258,9 @@ def largest_magnitude(c, n, best):
     """The greater of ``best`` and the maximum of |p(x)| over [0, 1]."""
     fourth = fourth_bound(c, 0, n)
     end, end_slope = value_slope(c, 0, n, 1.0)
-    best = largest(c, n, 1.0, end, end_slope, fourth, best)
-    return largest(c, n, -1.0, end, end_slope, fourth, best)
+    rounding = 0.0
+    for k in range(n + 1):
+        rounding += abs(c[k])
+    rounding *= ROUNDING
+    best = largest(c, n, 1.0, end, end_slope, fourth, rounding, best)
+    return largest(c, n, -1.0, end, end_slope, fourth, rounding, best)
