@@ -56,7 +56,7 @@ def convert_record(
 
     \b
     Example:
-        fdspec records convert CE58667.V2 --channel "Chan 1" --trim 5 40 -o trimmed.at2
+        fdspec records convert CE58667.V2 --channel H1 --trim 10 60 -o H1.at2
     """
     if sum(given is not None for given in (factor, pga, pga_g)) > 1:
         raise click.UsageError("Give one of --factor, --pga and --pga-g.")

@@ -67,29 +67,34 @@ def linked(name: str) -> Link | None:
 
 def save_links(added: Mapping[str, Link]) -> Path:
     """Add links to those there are, and return the file they are kept in."""
-    kept = {**links(), **added}
-    lines = ["# Records of the study among the user's own files; written by fdspec."]
-    for name, link in sorted(kept.items()):
-        # A JSON string is a TOML string, whatever the path holds.
-        lines += ["", f"[{name}]", f"path = {json.dumps(str(link.path))}"]
-        lines += [f"channel = {json.dumps(link.channel)}", f'sha256 = "{link.sha256}"']
-    return _write("\n".join(lines) + "\n")
+    return _write_links({**links(), **added})
 
 
 def remove_links(names: tuple[str, ...] | None = None) -> Path:
     """Take out the links of these names, or all, so that the stand-ins are loaded again."""
     kept = {} if names is None else {name: link for name, link in links().items() if name not in names}
     file = links_file()
-    if not kept:
+    if kept:
+        return _write_links(kept)
+    try:
         file.unlink(missing_ok=True)
-        return file
-    file.unlink()
-    return save_links(kept)
+    except OSError as error:
+        raise RecordError(f"{file}: the file of links cannot be deleted ({error})") from error
+    return file
 
 
 def checksum(path: Path) -> str:
     """Return the SHA-256 of a file, hexadecimal."""
     return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def _write_links(kept: Mapping[str, Link]) -> Path:
+    lines = ["# Records of the study among the user's own files; written by fdspec."]
+    for name, link in sorted(kept.items()):
+        # A JSON string is a TOML string, whatever the path holds.
+        lines += ["", f"[{name}]", f"path = {json.dumps(str(link.path))}"]
+        lines += [f"channel = {json.dumps(link.channel)}", f'sha256 = "{link.sha256}"']
+    return _write("\n".join(lines) + "\n")
 
 
 def _write(text: str) -> Path:

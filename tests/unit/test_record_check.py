@@ -174,6 +174,25 @@ def test_links_that_cannot_be_written(monkeypatch, tmp_path):
         save_links({"FSR1": Link(tmp_path, "", "")})
 
 
+def test_links_that_cannot_be_deleted(own_links):
+    own_links.mkdir(parents=True)
+    with pytest.raises(RecordError, match="the file of links cannot be deleted"):
+        remove_links()
+
+
+def test_links_that_cannot_be_rewritten_stay(folder, own_links, monkeypatch):
+    link_found(check_folder(folder))
+    before = own_links.read_bytes()
+
+    def full(*_, **__):
+        raise OSError("disk full")
+
+    monkeypatch.setattr("tempfile.NamedTemporaryFile", full)
+    with pytest.raises(RecordError, match="links cannot be written .disk full"):
+        remove_links(("FSR1",))
+    assert own_links.read_bytes() == before
+
+
 def test_links_stand_in_the_user_s_configuration(monkeypatch, tmp_path):
     monkeypatch.delenv("FDSPEC_RECORDS")
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))

@@ -149,16 +149,40 @@ REAL = {
         ("90 deg", 13400, 0.005, 0.059, G),
     ],
     "cosmos_v2c__AKBMR.BNZ.acc.V2c": [("Other", 42000, 0.005, 6.852, GAL)],
-    "csmip_dmg_v2__CE58667.V2": [("H1", 7500, 0.01, 27.114, GAL), ("Up", 7500, 0.01, 11.244, GAL)],
-    "csmip_dmg_v2__CE89146.V2": [("360 Deg", 12000, 0.005, 77.280, GAL), ("Up", 12000, 0.005, 20.529, GAL)],
-    "csmip_dmg_v2__CIWLT.V2": [("90 Deg", 15050, 0.02, 82.584, GAL), ("360 Deg", 15029, 0.02, 115.845, GAL)],
-    "renadic_chile__arica0911131.v1": [("NS", 26600, 0.005, 0.052, G), ("V", 26600, 0.005, 0.029, G)],
+    "csmip_dmg_v2__CE58667.V2": [
+        ("H1", 7500, 0.01, 27.114, GAL),
+        ("Up", 7500, 0.01, 11.244, GAL),
+        ("H2", 7500, 0.01, 26.411, GAL),
+    ],
+    "csmip_dmg_v2__CE89146.V2": [
+        ("360 Deg", 12000, 0.005, 77.280, GAL),
+        ("Up", 12000, 0.005, 20.529, GAL),
+        ("90 Deg", 12000, 0.005, 44.200, GAL),
+    ],
+    "csmip_dmg_v2__CIWLT.V2": [
+        ("90 Deg", 15050, 0.02, 82.584, GAL),
+        ("360 Deg", 15029, 0.02, 115.845, GAL),
+        ("Up", 15050, 0.02, 69.662, GAL),
+    ],
+    "renadic_chile__arica0911131.v1": [
+        ("NS", 26600, 0.005, 0.052, G),
+        ("V", 26600, 0.005, 0.029, G),
+        ("EW", 26600, 0.005, 0.057, G),
+    ],
     "smc__0111a.smc": [("360", 6001, 0.005, 104.41, GAL)],
     "esm_itaca__HI.ARS1.HNE.ACC.ASC": [("HNE", 19128, 0.005, 0.300022, GAL)],
     "knet__AOM0011801241951.EW": [("E-W", 10200, 0.01, 4.078, GAL)],
     "kiknet__AICH040010061330.EW2": [("EW (surface)", 28600, 0.005, 3.896, GAL)],
-    "geonet_v1a__HSES_20.V1A": [("N10E", 65536, 0.005, 2394.8, MM), ("N80W", 65536, 0.005, 2584.4, MM)],
-    "geonet_v2a__WPWS_20.V2A": [("S16W", 5800, 0.02, 41.6, MM), ("S74E", 5800, 0.02, 194.0, MM)],
+    "geonet_v1a__HSES_20.V1A": [
+        ("N10E", 65536, 0.005, 2394.8, MM),
+        ("N80W", 65536, 0.005, 2584.4, MM),
+        ("Up", 65536, 0.005, 1589.9, MM),
+    ],
+    "geonet_v2a__WPWS_20.V2A": [
+        ("S16W", 5800, 0.02, 41.6, MM),
+        ("S74E", 5800, 0.02, 194.0, MM),
+        ("Up", 5800, 0.02, 27.3, MM),
+    ],
     "nsmn_turkey__20170720223109_0921.txt": [
         ("N-S", 28683, 0.01, 13.200332, GAL),
         ("E-W", 28683, 0.01, 12.163827, GAL),
@@ -182,6 +206,7 @@ REAL = {
 def test_real_files_say_what_their_headers_say(shared_records, name):
     read = read_channels(shared_records / "formats" / name)
     assert len(read) == (3 if name[:4] not in {"esm_", "knet", "kikn", "smc_"} and "AKBMR" not in name else 1)
+    assert not REAL[name] or set(read) == {told[0] for told in REAL[name]}
     for channel, count, dt, peak, unit in REAL[name]:
         digits = len(f"{peak}".split(".")[1])
         assert (len(read[channel]), read[channel].dt) == (count, dt)
