@@ -313,3 +313,11 @@ def test_orders_leave_out_less_than_rounding() -> None:
     assert order_for(LONGEST_PHASE[12] * 0.999, 0) == 12
     assert order_for(LONGEST_PHASE[12] * 1.001, 3) == 16
     assert order_for(100.0, 0) == TERMS - 1
+
+
+def test_upper_floors_begin_to_move_by_terms_of_high_order() -> None:
+    """From rest the n-th floor's series begins at x^(2n): its peaks are found all the same, and soon."""
+    tower = Building.from_periods([40e3] * 12, 1.2, 0.7, 100e3, 50.0, RayleighDamping(0.03, 1.2, 0.3))
+    course = run(tower, GroundMotion([0.0, 1.0, 0.0], 0.002))
+    assert (np.diff(course.peak_displacement) < 0.0).all()
+    assert course.peak_displacement[-1] > 0.0
