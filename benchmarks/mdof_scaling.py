@@ -1,4 +1,4 @@
-"""The N-storey engine alone, ``python -m benchmarks.mdof_scaling``: reference buildings, time against storeys.
+"""The N-storey engine alone (``python -m benchmarks.mdof_scaling``): reference buildings, time against N.
 
 One core, after compilation, 20 s at dt 0.01. Times are those of the thread, so that what else the machine
 does costs no more than it must; the smallest of several is shown beside the median.
