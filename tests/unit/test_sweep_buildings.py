@@ -1,4 +1,4 @@
-"""The cube of buildings: each cell is its history, one storey is the single-storey sweep, no split moves a bit."""
+"""The cube of buildings: each cell is its history, one storey is the other sweep, no split moves a bit."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def scaled(building: fdspec.Building, stiffness_scale: float, slip_scale: float)
 
 
 def unlike() -> dict[str, fdspec.Building]:
-    """Three storeys: kinetic friction and a damped brace; no brace, a free and a locked damper; a full matrix."""
+    """Three storeys: kinetic friction, damped braces; no brace, a free and a locked damper; a full matrix."""
     plain: dict[str, Any] = {
         "floor_mass": [30e3, 25e3, 20e3],
         "storey_stiffness": [40e6, 30e6, 20e6],
@@ -238,8 +238,10 @@ LOW = fdspec.Building(20e3, 10e6, 50.0, 20e6, 30e3)
         (
             {"low": LOW, **unlike()},
             {},
-            "buildings must all have the same number of storeys, but 'low' has 1 and 'plain' has 3: "
-            "sweep them apart",
+            (
+                "buildings must all have the same number of storeys, but 'low' has 1 and 'plain' has 3: "
+                "sweep them apart"
+            ),
         ),
         (LOW, {"slip_scale": [1.0, 0.5]}, "slip_scale: values must increase, got 0.5 at index 1 after 1"),
         (LOW, {"slip_scale": -1.0}, "slip_scale: values must be zero or positive, got -1 at index 0"),

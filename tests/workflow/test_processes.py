@@ -1,0 +1,48 @@
+"""Workers may be processes: the same bits as from threads."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import fdspec
+
+
+def motion() -> fdspec.GroundMotion:
+    """One second of noise, 4 m/s2 at most, from a fixed seed."""
+    noise = np.random.default_rng(5).standard_normal(50)
+    return fdspec.GroundMotion(noise, 0.02, "short").scaled_to_pga(4.0)
+
+
+def frames(scheduler: str) -> xr.Dataset:
+    return fdspec.sweep(
+        motion(),
+        period=[0.2, 0.5],
+        pretension=[20e3, np.inf],
+        stiffness_ratio=[4.0],
+        workers=2,
+        scheduler=scheduler,
+        columns_per_task=1,
+    )
+
+
+def buildings(scheduler: str) -> xr.Dataset:
+    building = fdspec.Building([20e3, 18e3], [12e6, 9e6], 50.0, 30e6, [20e3, 10e3])
+    return fdspec.sweep_buildings(
+        motion(),
+        {"two": building},
+        slip_scale=[0.5, 1.0],
+        stiffness_scale=[1.0],
+        workers=2,
+        scheduler=scheduler,
+        cells_per_task=1,
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("swept", [frames, buildings])
+def test_processes_give_the_bits_of_threads(swept) -> None:
+    threads, processes = swept("threads"), swept("processes")
+    assert int(threads.transitions.sum()) > 10
+    assert processes.drop_attrs(deep=False).identical(threads.drop_attrs(deep=False))
