@@ -1,0 +1,5 @@
+"""The study's two validation problems, one module each: ``building`` makes the frame, ``solve`` simulates it.
+
+Their excitation and their normal forces are not printed: the first is a stand-in unless the user has the
+file (`kalamata`), the second an assumption that each problem states.
+"""
