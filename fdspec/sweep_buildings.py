@@ -20,7 +20,7 @@ from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-SECONDS_PER_SAMPLE: Final = 1.5e-6
+SECONDS_PER_SAMPLE: Final = 0.8e-6
 """Core time of one history for each sample of its record and N^1.5, roughly; for plans, not for results."""
 
 LIMITS: Final = ("elastic_acceleration", "braced_acceleration")

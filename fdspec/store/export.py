@@ -28,7 +28,8 @@ def export(cube: xr.Dataset, path: str | os.PathLike[str], *, record: str | None
 
     ``.nc``: netCDF over (stiffness_ratio, pretension, period) without any text variable, for CDO, VTK and
     ParaView, which refuse four dims. What is told of the record in words becomes global attributes
-    ``record``, ``record_event`` and so on.
+    ``record``, ``record_event`` and so on. A cube of buildings is written over (building, stiffness_scale,
+    slip_scale, storey), the buildings' names in their order in the attribute ``building``.
 
     ``.csv``: one row a cell, one column a variable, numbers written so that they read back to the bit. Lines
     that start with ``#`` come first and give each column's unit and meaning; ``pandas.read_csv(path,
@@ -37,7 +38,7 @@ def export(cube: xr.Dataset, path: str | os.PathLike[str], *, record: str | None
     Parameters
     ----------
     cube : xarray.Dataset
-        What `sweep` returns, with or without its dim ``record``.
+        What `sweep` or `sweep_buildings` returns, with or without its dim ``record``.
     path : path
         The file, in a folder that exists. It appears only when it is complete.
     record : str, optional
@@ -73,12 +74,13 @@ def _one_record(cube: xr.Dataset, record: str | None) -> xr.Dataset:
 
 
 def _without_text(one: xr.Dataset) -> xr.Dataset:
-    """Turn text about the record into global attributes, and drop any other text."""
+    """Turn text about the record and names along a dim into global attributes, and drop any other text."""
     text = [str(name) for name, variable in one.variables.items() if is_text(variable)]
     told = {variable.name for variable in motion_variables(())}
     attributes = {
         name if name == "record" else f"record_{name}": one[name].item() for name in text if name in told
     }
+    attributes |= {name: ", ".join(one[name].values.tolist()) for name in text if name in one.dims}
     return one.drop_encoding().drop_vars(text).reset_coords().assign_attrs(attributes)
 
 

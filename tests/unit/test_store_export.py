@@ -11,7 +11,7 @@ import xarray as xr
 
 from fdspec import store
 from fdspec.errors import StoreError
-from tests.cubes import synthetic_cube, synthetic_history
+from tests.cubes import synthetic_building_cube, synthetic_cube, synthetic_history
 
 DIMS = ("stiffness_ratio", "pretension", "period")
 
@@ -33,6 +33,17 @@ def test_netcdf_has_three_dims_and_no_text(tmp_path):
             assert file[name][...].data.tobytes() == expected.tobytes()
 
 
+def test_netcdf_of_buildings_names_them_in_their_order(tmp_path):
+    cube = synthetic_building_cube()
+    store.export(cube, tmp_path / "one.nc", record="FMR2")
+    with netCDF4.Dataset(tmp_path / "one.nc") as file:
+        assert all(variable.dtype.kind in "if" for variable in file.variables.values())
+        assert file.building == "office, hôtel 2"
+        assert file["peak_drift"].dimensions == ("building", "stiffness_scale", "slip_scale", "storey")
+        expected = cube.sel(record="FMR2")["peak_drift"].to_numpy()
+        assert file["peak_drift"][...].data.tobytes() == expected.tobytes()
+
+
 def read_csv(path):
     lines = path.read_text(encoding="utf-8").splitlines()
     heading = [line for line in lines if line.startswith("#")]
@@ -52,6 +63,20 @@ def test_csv_holds_every_cell_to_the_bit(tmp_path):
         expected = one[name].broadcast_like(everywhere).transpose(*DIMS).to_numpy().ravel()
         written = np.array([row[name] for row in rows]).astype(expected.dtype)
         assert written.tobytes() == expected.tobytes(), name
+
+
+def test_csv_of_buildings_has_a_row_for_each_storey(tmp_path):
+    cube = synthetic_building_cube()
+    store.export(cube, tmp_path / "one.csv", record="FSR1")
+    _, rows = read_csv(tmp_path / "one.csv")
+    one = cube.sel(record="FSR1")
+    everywhere = one["peak_drift"]
+    assert len(rows) == everywhere.size
+    for name in ["building", "storey", "slip_force", "peak_drift", "transitions", "braced_acceleration"]:
+        expected = one[name].broadcast_like(everywhere).transpose(*everywhere.dims).to_numpy().ravel()
+        assert np.array([row[name] for row in rows]).astype(expected.dtype).tolist() == expected.tolist(), (
+            name
+        )
 
 
 def test_csv_says_what_each_column_is(tmp_path):
