@@ -21,8 +21,9 @@ _KEY: Final = re.compile(r"([A-Z][^:]*?)\s*:\s*(.*?)\s*$")
 
 
 def recognises(text: TextFile) -> bool:
-    """Say whether the first line is the network's."""
-    return text.lines[0].strip().upper().startswith("STRONG GROUND MOTION RECORDS OF TURK")
+    """Say whether title or count are the network's: without its title, a cut file would pass for columns."""
+    title = text.lines[0].strip().upper().startswith("STRONG GROUND MOTION RECORDS OF TURK")
+    return title or any(line.lstrip().startswith("NUMBER OF DATA") for line in text.lines[:MAX_HEADER])
 
 
 def read(text: TextFile) -> tuple[Channel, ...]:
