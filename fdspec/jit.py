@@ -92,15 +92,6 @@ def inlined(function: Function) -> Function:
     return compiled
 
 
-def bare(function: Function) -> Function:
-    """Compile a rule that makes no arrays and counts no references to those it is handed.
-
-    Counting is atomic: in a step of a microsecond it cost as much as the arithmetic.
-    """
-    compiled: Function = numba.njit(nogil=True, error_model="numpy", _nrt=False)(function)
-    return compiled
-
-
 def entry(signature: Any) -> Callable[[Function], Function]:
     """Compile a function that Python calls, for one signature, through the cache."""
 
