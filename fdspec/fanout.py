@@ -6,10 +6,13 @@ Results do not depend on how items are shared out: each item is computed from it
 from __future__ import annotations
 
 import math
+import signal
+import threading
 import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
+from types import FrameType
 from typing import Any, Final, Generic, NamedTuple, TypeVar
 
 import dask
@@ -90,7 +93,8 @@ def fan_out(
     graph = [counted(task.items, records[task.record]) for task in tasks]
     total = each * sum(task.items.size for task in tasks)
     with progress_bar(total, "histories", shown=progress) as done, _reported(done):
-        warm()
+        with interrupted_at_last():
+            warm()
         parts = dask.compute(*graph, scheduler=scheduler, num_workers=workers or cores())
     return [part.result for part in parts]
 
@@ -99,6 +103,31 @@ def _counted(
     work: Callable[[IntArray, GroundMotion], Result], each: int, items: IntArray, motion: GroundMotion
 ) -> Done[Result]:
     return Done(each * items.size, work(items, motion))
+
+
+@contextmanager
+def interrupted_at_last() -> Iterator[None]:
+    """Raise KeyboardInterrupt at the end of this block for a Ctrl-C that was not heard inside it.
+
+    Loading kernels runs callbacks from C, and what is raised in one of those Python prints and forgets.
+    """
+    previous = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or not callable(previous):
+        yield
+        return
+    came = []
+
+    def remember(number: int, frame: FrameType | None) -> None:
+        came.append(number)
+        previous(number, frame)
+
+    signal.signal(signal.SIGINT, remember)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, previous)
+    if came:
+        raise KeyboardInterrupt
 
 
 @contextmanager

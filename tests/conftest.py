@@ -1,12 +1,16 @@
 """Hypothesis profiles and the way to ../shared, the folder of reference files some machines have."""
 
 import os
+import signal
 import tempfile
 import uuid
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
+
+# A shell has its background jobs ignore Ctrl-C, and so do their children: the tests of Ctrl-C need it.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 SHARED = Path(__file__).resolve().parents[2] / "shared"
 

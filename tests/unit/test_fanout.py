@@ -1,0 +1,35 @@
+"""A Ctrl-C while kernels load is never lost, wherever Python happens to be."""
+
+from __future__ import annotations
+
+import signal
+
+import pytest
+
+from fdspec.fanout import interrupted_at_last
+
+
+def test_an_interrupt_that_nobody_heard_is_raised_at_the_end() -> None:
+    before = signal.getsignal(signal.SIGINT)
+    reached = []
+    with pytest.raises(KeyboardInterrupt), interrupted_at_last():
+        try:
+            signal.raise_signal(signal.SIGINT)
+        except KeyboardInterrupt:
+            reached.append("swallowed, as a callback from C does")
+        reached.append("went on")
+    assert len(reached) == 2
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_an_interrupt_that_is_heard_is_raised_once() -> None:
+    before = signal.getsignal(signal.SIGINT)
+    with pytest.raises(KeyboardInterrupt), interrupted_at_last():
+        signal.raise_signal(signal.SIGINT)
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_nothing_happens_without_one() -> None:
+    with interrupted_at_last():
+        reached = True
+    assert reached
