@@ -6,9 +6,9 @@ Results do not depend on how items are shared out: each item is computed from it
 from __future__ import annotations
 
 import math
+import os
 import signal
 import threading
-import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
