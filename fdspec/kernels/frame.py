@@ -64,7 +64,10 @@ GROUND_DASHPOTS = 13
 """The frame's own springs and dashpots, as in ``frame``."""
 SLOWNESS = 14
 """sqrt(m_d / k_d), s: the brace's time of a radian."""
-MODEL_ROWS = 15
+MASS = 15
+BRACE = 16
+"""m_f + m_d and m_d, kg."""
+MODEL_ROWS = 17
 """Rows of the ``model`` array (MODEL_ROWS, lanes): what the phases make of the building.  Its columns
 are the storeys and as many empty ones as fill the last group of four."""
 
@@ -168,6 +171,8 @@ def prepare(frame, model, held):
         brace = frame[BRACE_MASS, i]
         model[FLOOR_SHARE, i] = brace / (floor + brace)
         model[BRACE_SHARE, i] = floor / (floor + brace)
+        model[MASS, i] = floor + brace
+        model[BRACE, i] = brace
         model[COLUMNS, i] = frame[STOREY_STIFFNESS, i]
         model[COLUMN_DASHPOTS, i] = frame[STOREY_DAMPING, i]
         model[GROUND_SPRINGS, i] = frame[GROUND_STIFFNESS, i]

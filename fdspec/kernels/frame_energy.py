@@ -19,16 +19,11 @@ from fdspec.kernels.taylor import DISPLACEMENT, OFFSET, SLIDING, VELOCITY
 
 
 @inner
-def input_work(frame, series, n, h, ground, rise, x):
+def input_work(momentum, n, h, ground, rise, x):
     """Work (J) of the ground acceleration on the first part x of the step: - a_g sum m u', integrated."""
     total = 0.0
     for k in range(n, -1, -1):
-        momentum = 0.0
-        for i in range(frame.shape[1]):
-            brace = frame[BRACE_MASS, i]
-            momentum += (frame[FLOOR_MASS, i] + brace) * series[VELOCITY, i + 1, k]
-            momentum -= brace * series[SLIDING, i + 1, k]
-        total = total * x + momentum * (ground / (k + 1) + rise * x / (k + 2))
+        total = total * x + momentum[k] * (ground / (k + 1) + rise * x / (k + 2))
     return -total * h * x
 
 

@@ -30,19 +30,14 @@ TOTAL_TRACES = ("input_energy", "viscous_energy", "kinetic_energy", "strain_ener
 
 
 @inner
-def write_traces(
-    frame, dense_stiffness, phase, series, n, h, y, tally, state, motion, c, traces, energies, row
-):
+def write_traces(frame, dense_stiffness, phase, series, n, h, y, tally, motion, c, traces, energies, row):
     """Write the motion at the fraction y of a step, before what happens at its end.
 
     motion (4, N) is room for the state at that instant; the works of ground and dashpots are not
     written here.
     """
     size = frame.shape[1]
-    for quantity in range(4):
-        for i in range(size):
-            motion[quantity, i] = state[quantity, i]
-    end_of_step(series, phase, n, y, motion)
+    end_of_step(series, n, y, motion)
     for i in range(size):
         traces[row, 0, i] = motion[DISPLACEMENT, i]
         traces[row, 1, i] = motion[VELOCITY, i]

@@ -89,3 +89,9 @@ def shifted(x, above):
 def magnitude(x):
     """Absolute values."""
     return abs(x[0]), abs(x[1]), abs(x[2]), abs(x[3])
+
+
+@inlined
+def total_of(x):
+    """Sum of all four."""
+    return (x[0] + x[1]) + (x[2] + x[3])

@@ -52,7 +52,6 @@ from fdspec.kernels.taylor import (
     end_of_step,
     expand,
     follow_drift,
-    measure,
     order_for,
     reaction_now,
 )
@@ -114,6 +113,7 @@ def history(
     motion,
     tally,
     series,
+    momentum,
     reach,
     speeds,
     c,
@@ -202,11 +202,21 @@ def history(
             n = order_for(rate * h, extra)
             acceleration = a0 + slope * tau
             rise = slope * h
-            for quantity in range(4):
-                for i in range(size):
-                    series[quantity, i + 1, 0] = state[quantity, i]
-            expand(model, stiffness_lanes, damping_lanes, damped, grounded, n, h, acceleration, rise, series)
-            measure(series, n, reach)
+            expand(
+                model,
+                stiffness_lanes,
+                damping_lanes,
+                damped,
+                grounded,
+                n,
+                h,
+                acceleration,
+                rise,
+                state,
+                series,
+                momentum,
+                reach,
+            )
             if massless:
                 for i in range(size):
                     if kind[i] == MASSLESS and phase[i] != STICK:
@@ -239,7 +249,7 @@ def history(
                     if at > reached and not (final and at <= reached + 1e-6 * dt):
                         break
                     y = min(max((at - tau) / h, 0.0), done)
-                    energies[written, 0] = work_in + input_work(frame, series, n, h, acceleration, rise, y)
+                    energies[written, 0] = work_in + input_work(momentum, n, h, acceleration, rise, y)
                     energies[written, 1] = viscous + viscous_work(
                         frame, dense_damping, damped, series, n, h, y, speeds
                     )
@@ -252,7 +262,6 @@ def history(
                         h,
                         y,
                         tally,
-                        state,
                         motion,
                         c,
                         traces,
@@ -262,10 +271,10 @@ def history(
                     written += 1
             if done > 0.0:
                 raise_peaks(frame, model, series, reach, n, h, done, acceleration, rise, c, peaks)
-                work_in += input_work(frame, series, n, h, acceleration, rise, done)
+                work_in += input_work(momentum, n, h, acceleration, rise, done)
                 if certify or tracing:
                     viscous += viscous_work(frame, dense_damping, damped, series, n, h, done, speeds)
-                end_of_step(series, phase, n, done, state)
+                end_of_step(series, n, done, state)
                 for i in range(size):
                     fresh[i] = 0
                     touching[i] = 0
@@ -422,6 +431,7 @@ def integrate(
         np.zeros((4, size)),
         np.zeros((TALLY_ROWS, size)),
         np.zeros((QUANTITIES, lanes + 1, TERMS)),
+        np.zeros(TERMS),
         np.zeros((REACH_ROWS, lanes)),
         np.zeros((2, lanes + 1)),
         np.zeros(TERMS),

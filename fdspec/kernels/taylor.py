@@ -14,6 +14,7 @@ import numpy as np
 
 from fdspec.jit import inlined, inner
 from fdspec.kernels.frame import (
+    BRACE,
     BRACE_DAMPING,
     BRACE_SHARE,
     BRACE_STIFFNESS,
@@ -28,6 +29,7 @@ from fdspec.kernels.frame import (
     GROUND_SPRINGS,
     HELD,
     KINETIC_SLIP_FORCE,
+    MASS,
     SLIDING_COMPLIANCE,
     SPRING,
 )
@@ -45,8 +47,8 @@ from fdspec.kernels.lanes import (
     store,
     store_row,
     times,
+    total_of,
 )
-from fdspec.kernels.types import STICK
 
 TERMS = 40
 """Room for coefficients: enough for steps of five radians."""
@@ -95,78 +97,215 @@ def product(matrix, series, quantity, i, k):
     """Terms i to i + 3 of a symmetric matrix (lanes, lanes) times the coefficients k of a quantity."""
     total = (0.0, 0.0, 0.0, 0.0)
     for j in range(0, matrix.shape[0], LANES):
-        x = load(series, quantity, j + 1, k)
-        front = plus(scaled(row(matrix, j, i), x[0]), scaled(row(matrix, j + 1, i), x[1]))
-        back = plus(scaled(row(matrix, j + 2, i), x[2]), scaled(row(matrix, j + 3, i), x[3]))
-        total = plus(total, plus(front, back))
+        total = plus(total, part_of_product(matrix, i, j, load(series, quantity, j + 1, k)))
     return total
 
 
-@inner
-def expand(model, dense_stiffness, dense_damping, damped, grounded, n, h, ground, rise, series):
-    """Fill the series of order n over the step h (s) from their first terms.
+@inlined
+def part_of_product(matrix, i, j, x):
+    """What columns j to j + 3, times x, put into terms i to i + 3."""
+    front = plus(scaled(row(matrix, j, i), x[0]), scaled(row(matrix, j + 1, i), x[1]))
+    back = plus(scaled(row(matrix, j + 2, i), x[2]), scaled(row(matrix, j + 3, i), x[3]))
+    return plus(front, back)
 
-    ground: the ground's acceleration at the start, m/s2; rise: its change over the step.  The dense
-    matrices are (lanes, lanes) or empty.
+
+@inlined
+def next_terms(
+    model, i, k, factor, x, y, o, z, below, below_rate, above, dense, pull, damped, grounded, ground, rise
+):
+    """Reactions and inertia of order k of four storeys, and velocities of order k + 1.
+
+    x, y: coefficients k of displacement and velocity; o, z: of slip offset and sliding velocity; below,
+    below_rate: x and y of the storey below the four; above: the force in the storey above them; pull: what
+    the dense matrices ask for.  The last value is the force in the lowest of the four storeys.
 
     Each coefficient waits for the one before it through the dashpots alone, so what they ask for comes
-    last in each sum: the time this loop takes is that of its longest chain.
+    last in each sum: the time this takes is that of its longest chain.
     """
+    drift = rise_from(x, below)
+    brace = times(row(model, SPRING, i), minus(drift, o))
+    storey = times(row(model, COLUMNS, i), drift)
+    if damped:
+        drift_rate = rise_from(y, below_rate)
+        brace = plus(brace, times(row(model, DASHPOT, i), minus(drift_rate, z)))
+        storey = plus(storey, times(row(model, COLUMN_DASHPOTS, i), drift_rate))
+    if k == 0:
+        brace = plus(brace, row(model, GIVEN_FORCE, i))
+    total = plus(storey, brace)
+    floor = minus(shifted(total, above), storey)
+    push = minus(floor, times(row(model, HELD, i), brace))
+    if grounded:
+        hold = times(row(model, GROUND_SPRINGS, i), x)
+        hold = plus(hold, times(row(model, GROUND_DASHPOTS, i), y))
+        push = minus(push, hold)
+        floor = minus(floor, hold)
+    if dense:
+        push = minus(push, pull)
+        floor = minus(floor, pull)
+    held = plus(times(row(model, FLOOR_SHARE, i), floor), times(row(model, BRACE_SHARE, i), brace))
+    slide = held
+    if k == 0:
+        push = minus(push, row(model, FRICTION, i))
+        slide = minus(slide, row(model, FRICTION, i))
+    compliance = row(model, COMPLIANCE, i)
+    inertia = times(push, compliance)
+    if k == 0:
+        y_next = scaled(less(inertia, ground), factor)
+    elif k == 1:
+        y_next = scaled(less(inertia, rise), factor)
+    else:
+        y_next = times(push, scaled(compliance, factor))
+    z_next = times(slide, scaled(row(model, SLIDING_COMPLIANCE, i), factor))
+    return y_next, z_next, held, inertia, total[0]
+
+
+@inner
+def expand(
+    model,
+    dense_stiffness,
+    dense_damping,
+    damped,
+    grounded,
+    n,
+    h,
+    ground,
+    rise,
+    state,
+    series,
+    momentum,
+    reach,
+):
+    """Fill the series of order n over the step h (s) that starts at ``state``.
+
+    Beside them the momentum's, sum m u', and how far reactions and accelerations may reach.
+    ground: the ground's acceleration at the start, m/s2; rise: its change over the step.  The dense
+    matrices are (lanes, lanes) or empty.
+    """
+    for quantity in range(4):
+        for i in range(state.shape[1]):
+            series[quantity, i + 1, 0] = state[quantity, i]
+    if model.shape[1] == LANES:
+        expand_four(
+            model,
+            dense_stiffness,
+            dense_damping,
+            damped,
+            grounded,
+            n,
+            h,
+            ground,
+            rise,
+            series,
+            momentum,
+            reach,
+        )
+    else:
+        expand_groups(
+            model, dense_stiffness, dense_damping, damped, grounded, n, h, ground, rise, series, momentum
+        )
+        measure(series, n, reach)
+
+
+@inlined
+def expand_four(
+    model, dense_stiffness, dense_damping, damped, grounded, n, h, ground, rise, series, momentum, reach
+):
+    """Fill the series of up to four storeys: their last coefficients never leave the registers."""
+    dense = dense_stiffness.shape[0] + dense_damping.shape[0] > 0
+    pull = (0.0, 0.0, 0.0, 0.0)
+    x = load(series, DISPLACEMENT, 1, 0)
+    y = load(series, VELOCITY, 1, 0)
+    o = load(series, OFFSET, 1, 0)
+    z = load(series, SLIDING, 1, 0)
+    far = (0.0, 0.0, 0.0, 0.0)
+    swing = (0.0, 0.0, 0.0, 0.0)
+    jerk = (0.0, 0.0, 0.0, 0.0)
+    momentum[0] = total_of(minus(times(row(model, MASS, 0), y), times(row(model, BRACE, 0), z)))
+    for k in range(n):
+        factor = h / (k + 1)
+        if dense:
+            pull = (0.0, 0.0, 0.0, 0.0)
+            if dense_stiffness.shape[0] > 0:
+                pull = part_of_product(dense_stiffness, 0, 0, x)
+            if dense_damping.shape[0] > 0:
+                pull = plus(pull, part_of_product(dense_damping, 0, 0, y))
+        y_next, z_next, held, inertia, _ = next_terms(
+            model, 0, k, factor, x, y, o, z, 0.0, 0.0, 0.0, dense, pull, damped, grounded, ground, rise
+        )
+        x = scaled(y, factor)
+        o = scaled(z, factor)
+        y = y_next
+        z = z_next
+        store(series, VELOCITY, 1, k + 1, y)
+        store(series, DISPLACEMENT, 1, k + 1, x)
+        store(series, OFFSET, 1, k + 1, o)
+        store(series, SLIDING, 1, k + 1, z)
+        store(series, REACTION, 1, k, held)
+        store(series, INERTIA, 1, k, inertia)
+        momentum[k + 1] = total_of(minus(times(row(model, MASS, 0), y), times(row(model, BRACE, 0), z)))
+        if k > 0:
+            far = plus(far, magnitude(held))
+            term = magnitude(inertia)
+            swing = plus(swing, term)
+            jerk = plus(jerk, scaled(term, float(k)))
+    store_row(reach, REACTION_REACH, 0, far)
+    store_row(reach, ACCELERATION_REACH, 0, swing)
+    store_row(reach, JERK_REACH, 0, jerk)
+
+
+@inlined
+def expand_groups(
+    model, dense_stiffness, dense_damping, damped, grounded, n, h, ground, rise, series, momentum
+):
+    """Fill the series of any number of storeys, from the top group of four down."""
+    dense = dense_stiffness.shape[0] + dense_damping.shape[0] > 0
+    pull = (0.0, 0.0, 0.0, 0.0)
     groups = model.shape[1] // LANES
-    has_stiffness = dense_stiffness.shape[0] > 0
-    has_damping = dense_damping.shape[0] > 0
     for k in range(n):
         factor = h / (k + 1)
         above = 0.0
+        moved = 0.0
         for group in range(groups - 1, -1, -1):
             i = LANES * group
             x = load(series, DISPLACEMENT, i + 1, k)
             y = load(series, VELOCITY, i + 1, k)
+            o = load(series, OFFSET, i + 1, k)
             z = load(series, SLIDING, i + 1, k)
-            drift = rise_from(x, series[DISPLACEMENT, i, k])
-            brace = times(row(model, SPRING, i), minus(drift, load(series, OFFSET, i + 1, k)))
-            storey = times(row(model, COLUMNS, i), drift)
-            if damped:
-                drift_rate = rise_from(y, series[VELOCITY, i, k])
-                brace = plus(brace, times(row(model, DASHPOT, i), minus(drift_rate, z)))
-                storey = plus(storey, times(row(model, COLUMN_DASHPOTS, i), drift_rate))
-            if k == 0:
-                brace = plus(brace, row(model, GIVEN_FORCE, i))
-            total = plus(storey, brace)
-            floor = minus(shifted(total, above), storey)
-            above = total[0]
-            if has_stiffness:
-                floor = minus(floor, product(dense_stiffness, series, DISPLACEMENT, i, k))
-            push = minus(floor, times(row(model, HELD, i), brace))
-            if grounded:
-                pull = times(row(model, GROUND_SPRINGS, i), x)
-                pull = plus(pull, times(row(model, GROUND_DASHPOTS, i), y))
-                push = minus(push, pull)
-                floor = minus(floor, pull)
-            if has_damping:
-                pull = product(dense_damping, series, VELOCITY, i, k)
-                push = minus(push, pull)
-                floor = minus(floor, pull)
-            held = plus(times(row(model, FLOOR_SHARE, i), floor), times(row(model, BRACE_SHARE, i), brace))
-            slide = held
-            if k == 0:
-                push = minus(push, row(model, FRICTION, i))
-                slide = minus(slide, row(model, FRICTION, i))
-            compliance = row(model, COMPLIANCE, i)
-            inertia = times(push, compliance)
-            if k == 0:
-                y_next = scaled(less(inertia, ground), factor)
-            elif k == 1:
-                y_next = scaled(less(inertia, rise), factor)
-            else:
-                y_next = times(push, scaled(compliance, factor))
+            if dense:
+                pull = product(dense_stiffness, series, DISPLACEMENT, i, k)
+                pull = plus(pull, product(dense_damping, series, VELOCITY, i, k))
+            y_next, z_next, held, inertia, above = next_terms(
+                model,
+                i,
+                k,
+                factor,
+                x,
+                y,
+                o,
+                z,
+                series[DISPLACEMENT, i, k],
+                series[VELOCITY, i, k],
+                above,
+                dense,
+                pull,
+                damped,
+                grounded,
+                ground,
+                rise,
+            )
             store(series, VELOCITY, i + 1, k + 1, y_next)
             store(series, DISPLACEMENT, i + 1, k + 1, scaled(y, factor))
             store(series, OFFSET, i + 1, k + 1, scaled(z, factor))
-            slide = times(slide, scaled(row(model, SLIDING_COMPLIANCE, i), factor))
-            store(series, SLIDING, i + 1, k + 1, slide)
+            store(series, SLIDING, i + 1, k + 1, z_next)
             store(series, REACTION, i + 1, k, held)
             store(series, INERTIA, i + 1, k, inertia)
+            moved += total_of(minus(times(row(model, MASS, i), y), times(row(model, BRACE, i), z)))
+        momentum[k] = moved
+    momentum[n] = 0.0
+    for i in range(0, model.shape[1], LANES):
+        y = load(series, VELOCITY, i + 1, n)
+        z = load(series, SLIDING, i + 1, n)
+        momentum[n] += total_of(minus(times(row(model, MASS, i), y), times(row(model, BRACE, i), z)))
 
 
 @inner
@@ -215,24 +354,24 @@ def follow_drift(frame, state, fresh, phase, n, h, series, i):
 
 
 @inner
-def end_of_step(series, phase, n, x, state):
+def end_of_step(series, n, x, state):
     """Set the state to that at the fraction x of the step."""
-    for i in range(state.shape[1]):
-        u = series[DISPLACEMENT, i + 1, n]
-        v = series[VELOCITY, i + 1, n]
-        for k in range(n - 1, -1, -1):
-            u = u * x + series[DISPLACEMENT, i + 1, k]
-            v = v * x + series[VELOCITY, i + 1, k]
-        state[DISPLACEMENT, i] = u
-        state[VELOCITY, i] = v
-        if phase[i] != STICK:
-            o = series[OFFSET, i + 1, n]
-            w = series[SLIDING, i + 1, n]
-            for k in range(n - 1, -1, -1):
-                o = o * x + series[OFFSET, i + 1, k]
-                w = w * x + series[SLIDING, i + 1, k]
-            state[OFFSET, i] = o
-            state[SLIDING, i] = w
+    size = state.shape[1]
+    for i in range(0, size, LANES):
+        for quantity in (DISPLACEMENT, OFFSET):
+            place = load(series, quantity, i + 1, n)
+            speed = load(series, quantity + 1, i + 1, n)
+            if x == 1.0:
+                for k in range(n - 1, -1, -1):
+                    place = plus(place, load(series, quantity, i + 1, k))
+                    speed = plus(speed, load(series, quantity + 1, i + 1, k))
+            else:
+                for k in range(n - 1, -1, -1):
+                    place = plus(scaled(place, x), load(series, quantity, i + 1, k))
+                    speed = plus(scaled(speed, x), load(series, quantity + 1, i + 1, k))
+            for lane in range(min(LANES, size - i)):
+                state[quantity, i + lane] = place[lane]
+                state[quantity + 1, i + lane] = speed[lane]
 
 
 @inner
