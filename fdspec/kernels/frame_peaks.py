@@ -9,6 +9,7 @@ from fdspec.kernels.taylor import (
     ACCELERATION_REACH,
     DISPLACEMENT,
     INERTIA,
+    JERK_REACH,
     OFFSET,
     REACTION_REACH,
     SLIDING,
@@ -26,48 +27,50 @@ PEAK_ROWS = 6
 
 
 @inner
-def raise_peaks(frame, model, series, reach, n, h, x, ground, rise, c, peaks):
-    """Raise the peaks to those of the first part x of the step.
+def raise_peaks(frame, model, series, reach, state, n, h, x, ground, rise, c, peaks):
+    """Raise the peaks to those of the first part x of the step, at whose end ``state`` stands.
 
-    A quantity is at most its value at the start and what its acceleration can make of it over the
-    whole step; only where that leaves room for a new peak is it searched.
+    Between two instants a quantity leaves the larger of its two values by at most an eighth of its
+    largest second derivative; accelerations leave that at the start by at most their reach.  Only where
+    these leave room for a new peak is it searched.
     """
     strongest = abs(ground) + abs(rise)
+    eighth = 0.125 * h * h
     shear = 0.0
     shear_reach = 0.0
     for j in range(frame.shape[1] - 1, -1, -1):
         i = j + 1
-        reach_a = reach[ACCELERATION_REACH, j]
-        now = abs(series[INERTIA, i, 0])
-        if now + reach_a > peaks[PEAK_ACCELERATION, j]:
+        inertia = abs(series[INERTIA, i, 0])
+        pull = inertia + reach[ACCELERATION_REACH, j]
+        if pull > peaks[PEAK_ACCELERATION, j]:
             take(series, INERTIA, i, n - 1, x, c)
             peaks[PEAK_ACCELERATION, j] = largest_magnitude(c, n - 1, peaks[PEAK_ACCELERATION, j])
-        pull = h * (now + reach_a + strongest)
-        if abs(series[VELOCITY, i, 0]) + pull > peaks[PEAK_VELOCITY, j]:
+        most = max(abs(series[VELOCITY, i, 0]), abs(state[VELOCITY, j]))
+        if most + 0.125 * h * (reach[JERK_REACH, j] + abs(rise)) > peaks[PEAK_VELOCITY, j]:
             take(series, VELOCITY, i, n, x, c)
             peaks[PEAK_VELOCITY, j] = largest_magnitude(c, n, peaks[PEAK_VELOCITY, j])
-        way = h * (abs(series[VELOCITY, i, 0]) + 0.5 * pull)
-        if abs(series[DISPLACEMENT, i, 0]) + way > peaks[PEAK_DISPLACEMENT, j]:
+        most = max(abs(series[DISPLACEMENT, i, 0]), abs(state[DISPLACEMENT, j]))
+        if most + eighth * (pull + strongest) > peaks[PEAK_DISPLACEMENT, j]:
             take(series, DISPLACEMENT, i, n, x, c)
             peaks[PEAK_DISPLACEMENT, j] = largest_magnitude(c, n, peaks[PEAK_DISPLACEMENT, j])
-        way_below = 0.0
+        most = abs(series[DISPLACEMENT, i, 0] - series[DISPLACEMENT, j, 0])
         if j > 0:
-            pull = h * (abs(series[INERTIA, j, 0]) + reach[ACCELERATION_REACH, j - 1] + strongest)
-            way_below = h * (abs(series[VELOCITY, j, 0]) + 0.5 * pull)
-        if (
-            abs(series[DISPLACEMENT, i, 0] - series[DISPLACEMENT, j, 0]) + way + way_below
-            > peaks[PEAK_DRIFT, j]
-        ):
+            most = max(most, abs(state[DISPLACEMENT, j] - state[DISPLACEMENT, j - 1]))
+            below = abs(series[INERTIA, j, 0]) + reach[ACCELERATION_REACH, j - 1]
+        else:
+            most = max(most, abs(state[DISPLACEMENT, j]))
+            below = strongest
+        if most + eighth * (pull + below) > peaks[PEAK_DRIFT, j]:
             take_difference(series, DISPLACEMENT, i, DISPLACEMENT, j, n, x, c)
             peaks[PEAK_DRIFT, j] = largest_magnitude(c, n, peaks[PEAK_DRIFT, j])
-        # Sliding accelerates by its compliance times the reaction; a massless brace has none and goes with
-        # the drift.
-        slide = abs(series[SLIDING, i, 1]) + h * model[SLIDING_COMPLIANCE, j] * reach[REACTION_REACH, j]
-        if frame[BRACE_MASS, j] > 0.0:
-            way += h * (abs(series[SLIDING, i, 0]) + slide)
-        else:
-            way = peaks[PEAK_BRACE_DISPLACEMENT, j]
-        if abs(series[DISPLACEMENT, i, 0] - series[OFFSET, i, 0]) + way > peaks[PEAK_BRACE_DISPLACEMENT, j]:
+        # Sliding accelerates by its compliance times the reaction; a massless brace has no such bound.
+        most = max(
+            abs(series[DISPLACEMENT, i, 0] - series[OFFSET, i, 0]),
+            abs(state[DISPLACEMENT, j] - state[OFFSET, j]),
+        )
+        slide = model[SLIDING_COMPLIANCE, j] * reach[REACTION_REACH, j]
+        most += eighth * (pull + strongest + slide) + 0.125 * h * abs(series[SLIDING, i, 1])
+        if most > peaks[PEAK_BRACE_DISPLACEMENT, j] or frame[BRACE_MASS, j] == 0.0:
             take_difference(series, DISPLACEMENT, i, OFFSET, i, n, x, c)
             peaks[PEAK_BRACE_DISPLACEMENT, j] = largest_magnitude(c, n, peaks[PEAK_BRACE_DISPLACEMENT, j])
         # The storey shear carries the inertia of all masses above: that of floor and brace, less what
@@ -75,9 +78,7 @@ def raise_peaks(frame, model, series, reach, n, h, x, ground, rise, c, peaks):
         mass = frame[FLOOR_MASS, j] + frame[BRACE_MASS, j]
         lag = frame[BRACE_MASS, j] / h
         shear += mass * series[INERTIA, i, 0] - lag * series[SLIDING, i, 1]
-        shear_reach += (
-            mass * reach_a + frame[BRACE_MASS, j] * model[SLIDING_COMPLIANCE, j] * (reach[REACTION_REACH, j])
-        )
+        shear_reach += mass * reach[ACCELERATION_REACH, j] + frame[BRACE_MASS, j] * slide
         if abs(shear) + shear_reach > peaks[PEAK_SHEAR, j]:
             storey_shear(frame, series, n, h, j, c)
             shorten(c, n - 1, x)

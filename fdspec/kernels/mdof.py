@@ -270,11 +270,11 @@ def history(
                     )
                     written += 1
             if done > 0.0:
-                raise_peaks(frame, model, series, reach, n, h, done, acceleration, rise, c, peaks)
                 work_in += input_work(momentum, n, h, acceleration, rise, done)
                 if certify or tracing:
                     viscous += viscous_work(frame, dense_damping, damped, series, n, h, done, speeds)
                 end_of_step(series, n, done, state)
+                raise_peaks(frame, model, series, reach, state, n, h, done, acceleration, rise, c, peaks)
                 for i in range(size):
                     fresh[i] = 0
                     touching[i] = 0
