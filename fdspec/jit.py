@@ -7,6 +7,7 @@ nogil          dask's threads run kernels side by side; a scheduler's heartbeat 
 error_model    "numpy": a division by zero gives inf or nan, which ends in a status, not in a raise.
 no fastmath    it breaks isnan and changes bits with the machine.
 no parallel    one level of parallelism only: the scheduler's.
+no cfunc       nothing here is called from C; its wrappers cost time and memory to compile.
 signatures     entries are compiled for one explicit signature: nothing compiles a second time for
                another type, and processes that start together write the same cache entry.
 cache          entries only: what they call is compiled into them.  numba knows an entry to be stale
@@ -35,7 +36,6 @@ ground1d = types.Array(types.float64, 1, "C", readonly=True)
 float2d = types.Array(types.float64, 2, "C")
 float3d = types.Array(types.float64, 3, "C")
 int1d = types.Array(types.int64, 1, "C")
-int2d = types.Array(types.int64, 2, "C")
 
 
 def record_of(cls: type) -> types.Type:
@@ -82,13 +82,21 @@ def inner(function: Function) -> Function:
     It makes no arrays, and so counts no references to those it is handed: counting is atomic, and in
     a step of a microsecond it cost as much as the arithmetic.
     """
-    compiled: Function = numba.njit(nogil=True, error_model="numpy", _nrt=False)(function)
+    compiled: Function = numba.njit(nogil=True, error_model="numpy", _nrt=False, no_cfunc_wrapper=True)(
+        function
+    )
     return compiled
 
 
 def inlined(function: Function) -> Function:
     """Compile a rule of the time loop; a call would copy its tuples of constants onto the stack."""
-    compiled: Function = numba.njit(nogil=True, error_model="numpy", _nrt=False, forceinline=True)(function)
+    compiled: Function = numba.njit(
+        nogil=True,
+        error_model="numpy",
+        _nrt=False,
+        forceinline=True,
+        no_cfunc_wrapper=True,
+    )(function)
     return compiled
 
 

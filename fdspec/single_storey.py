@@ -75,7 +75,7 @@ def integrate_single_storey(
         brace_displacement=course["brace_displacement"],
         brace_velocity=course["brace_velocity"],
         friction_force=course["friction_force"],
-        phase=course["phase"].astype(np.int64),
+        phase=np.nan_to_num(course["phase"]).astype(np.int64),  # NaN where a broken history never came
         slip_travel=course["slip_travel"],
         storey_friction_energy=course["friction_energy"],
         storey_shear=shear,

@@ -333,6 +333,8 @@ def history(
         if scale > 0.0:
             now = stored_energy(frame, dense_stiffness, state)
             error = abs(work_in + stored - now - viscous - friction) / scale
+    if status == OK and not math.isfinite(friction + viscous + work_in + error):
+        status = NON_FINITE_STATE
     totals[0] = transitions
     totals[1] = friction
     totals[2] = viscous

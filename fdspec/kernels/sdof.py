@@ -7,11 +7,14 @@ to find every instant at which the phase changes, and every peak.
 
 from __future__ import annotations
 
+import math
+
 from fdspec.jit import inner
 from fdspec.kernels.energy import stored_energy
 from fdspec.kernels.types import (
     ANCHOR,
     INPUT,
+    NON_FINITE_STATE,
     OK,
     PEAK_ACCELERATION,
     PEAK_DISPLACEMENT,
@@ -66,7 +69,7 @@ def finish(storey, s, certify, result):
     if certify:
         missing = s[INPUT] + s[STORED] - stored_energy(storey, motion) - s[VISCOUS] - friction
         scale = abs(s[INPUT]) + s[STORED]
-        error = missing / scale if scale > 0.0 else 0.0
+        error = abs(missing) / scale if scale > 0.0 else 0.0
     result[0] = s[PEAK_ACCELERATION]
     result[1] = s[PEAK_DISPLACEMENT]
     result[2] = s[PEAK_VELOCITY]
@@ -78,6 +81,11 @@ def finish(storey, s, certify, result):
     result[8] = s[INPUT]
     result[9] = error
     result[10] = s[STATUS]
+    size = 0.0
+    for k in range(10):
+        size += abs(result[k])
+    if not size < math.inf and s[STATUS] == OK:
+        result[10] = NON_FINITE_STATE
 
 
 @inner

@@ -1,0 +1,62 @@
+"""Every history ends in a status: what is no longer a number, or never ends, is said to be so."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import fdspec
+from fdspec.errors import IntegrationError
+from fdspec.kernels import walk as walking
+from fdspec.kernels.oscillator import TERMS
+from fdspec.kernels.plan import RADIANS, plan
+from fdspec.kernels.types import (
+    N_STATE,
+    NON_FINITE_STATE,
+    OK,
+    STATUS,
+    TRANSITION_CAP_REACHED,
+    TRANSITIONS,
+    Motion,
+    Storey,
+)
+
+AXES = {"period": [0.5], "pretension": [1e4, 1e5, np.inf], "stiffness_ratio": [4.0]}
+
+
+@pytest.fixture(params=[1e308, 1e200])
+def monstrous(request: pytest.FixtureRequest) -> fdspec.GroundMotion:
+    """A motion whose rates, or whose energies, are beyond the largest float."""
+    with pytest.warns(UserWarning, match="the unit looks wrong"):
+        return fdspec.GroundMotion(request.param * np.array([0.0, 1.0, -1.0, 1.0, 0.0]), 0.01, name="m")
+
+
+def test_a_sweep_keeps_the_status(monstrous: fdspec.GroundMotion) -> None:
+    cube = fdspec.sweep(monstrous, **AXES)
+    assert (cube.status == NON_FINITE_STATE).all()
+
+
+@pytest.mark.parametrize("storeys", [1, 2])
+def test_simulate_raises_it(monstrous: fdspec.GroundMotion, storeys: int) -> None:
+    building = fdspec.Building([20e3] * storeys, 3e6, 50.0, 12e6, 5e4)
+    with pytest.raises(IntegrationError, match="non_finite_state"):
+        fdspec.simulate(building, monstrous)
+
+
+def test_a_history_without_end_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same step as compiled, uncompiled and with a cap of three changes of phase."""
+    monkeypatch.setattr(walking, "TRANSITION_CAP", 3)
+    walk = getattr(walking.walk, "py_func", walking.walk)
+    scheme = plan(Storey(20e3, 2.5e4, 3.2e6, 50.0, 0.0, 12.6e6, 5e3, 5e3), 0.01, RADIANS)
+    s = np.empty(N_STATE)
+    series = [np.empty(TERMS) for _ in range(3)]
+    walking.begin(scheme, Motion(0.0, 0.0, 0.0, 0.0), s)
+    none = np.empty(0), np.empty(0, np.int64), np.empty((0, len(walking.TRACES)))
+    for k in range(200):
+        ground = 3.0 * np.sin(0.13 * np.array([k, k + 1.0]))
+        rate = (ground[1] - ground[0]) / 0.01
+        walk(scheme, np.empty(0), s, 0.01 * k, ground[0], rate, False, False, *series, *none, 0.0, 0, 0.0)
+        if s[STATUS] != OK:
+            break
+    assert s[STATUS] == TRANSITION_CAP_REACHED
+    assert s[TRANSITIONS] <= 3
