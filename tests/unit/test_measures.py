@@ -69,3 +69,16 @@ def test_a_variable_that_is_missing_is_named(cube: xr.Dataset, name: str) -> Non
 def test_an_empty_band_is_refused(cube: xr.Dataset) -> None:
     with pytest.raises(InvalidInput, match="no period left"):
         best_damper(cube.sel(period=slice(5, 6)))
+
+
+def test_a_cube_of_buildings_is_refused() -> None:
+    dims = ("record", "building", "stiffness_scale", "slip_scale")
+    peak = (dims, np.ones((1, 1, 1, 1)))
+    cube = xr.Dataset({"peak_acceleration": peak, "elastic_acceleration": peak})
+    with pytest.raises(InvalidInput, match="no dimension stiffness_ratio, pretension, period"):
+        best_damper(cube)
+
+
+def test_a_plane_of_the_cube_is_refused(cube: xr.Dataset) -> None:
+    with pytest.raises(InvalidInput, match=r"no dimension period.*select with lists"):
+        best_damper(cube.sel(period=0.5))

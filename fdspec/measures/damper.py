@@ -1,4 +1,4 @@
-"""Measures of a cube: what an engineer reads off it, Dataset -> Dataset."""
+"""The one damper that serves best over all periods of a cube."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fdspec.errors import InvalidInput
+from fdspec.measures.cells import ended_well, require
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -34,16 +34,10 @@ def best_damper(cube: xr.Dataset) -> xr.Dataset:
     Raises
     ------
     InvalidInput
-        When the cube lacks a variable or has no period.
+        When the cube lacks a variable or a dimension, or has no period.
     """
-    for name in ("peak_acceleration", "elastic_acceleration"):
-        if name not in cube:
-            raise InvalidInput(f"the cube has no {name}; sweep with it among the outputs")
-    if cube.sizes["period"] == 0:
-        raise InvalidInput("the cube has no period left; select a band that holds some")
-    peak = cube["peak_acceleration"]
-    if "status" in cube:
-        peak = peak.where(cube["status"] == 0)
+    require(cube, ("peak_acceleration", "elastic_acceleration"))
+    peak = ended_well(cube, "peak_acceleration")
     ratio = (peak / cube["elastic_acceleration"]).mean("period", skipna=False)
     known = ratio.fillna(np.inf)
     best = known.isel(known.argmin(["stiffness_ratio", "pretension"]))

@@ -1,0 +1,5 @@
+"""Measures of a cube: what an engineer reads off it, Dataset -> Dataset."""
+
+from fdspec.measures.damper import best_damper
+
+__all__ = ["best_damper"]
