@@ -12,7 +12,8 @@ COMMANDS = {
     ),
     "simulate": ("fdspec.cli.simulate:simulate", "Compute the history of one frame under one record."),
     "records": ("fdspec.cli.records:records", "List, show, check, convert and draw ground motions."),
-    "figures": ("fdspec.cli.figures:figures", "Draw the acceleration over pretension and period."),
+    "figures": ("fdspec.cli.figures:figures", "Draw the study's figures."),
+    "claims": ("fdspec.cli.claims:claims", "Put the study's conclusions to a cube."),
     "export": ("fdspec.cli.export:export", "Write one record of a cube for other programs (netCDF, CSV)."),
 }
 

@@ -1,0 +1,114 @@
+"""`fdspec claims`: what the study concludes, put to a cube."""
+
+from __future__ import annotations
+
+import math
+import textwrap
+from typing import TYPE_CHECKING, Final
+
+import click
+
+from fdspec.cli.table import table
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+MARKS: Final = {"holds": "+", "holds in part": "~", "does not hold": "-", "not tested": " "}
+
+BOLT_FACTOR: Final = 2.0
+"""Normal force over the force of a bolt: one bolt, two faces."""
+
+WIDTH: Final = 110
+
+
+@click.command()
+@click.argument("cube", metavar="CUBE.nc")
+@click.option(
+    "--normal-force-factor",
+    "factor",
+    type=float,
+    default=1.0,
+    show_default=True,
+    metavar="X",
+    help="The cube's pretension over what the study calls so: 2 n_b for the force of one of n_b bolts.",
+)
+@click.option("--markdown", is_flag=True, help="Tables for a Markdown page.")
+def claims(cube: str, factor: float, markdown: bool) -> None:
+    """Put the study's conclusions to a cube: each with the number that decides it, per record.
+
+    A claim falls into parts, sentences about cells of the cube. The number is the share of cells, in percent,
+    that do what the sentence says: from 90 on it holds (+), from 50 on in part (~), else it does not (-).
+    """
+    from fdspec import store
+    from fdspec.measures.claims import study_claims
+
+    dataset = store.open(cube)
+    found = study_claims(dataset, normal_force_factor=factor)
+    bolt = study_claims(dataset, normal_force_factor=BOLT_FACTOR * factor)
+    blocks = [_shares(found, markdown=markdown), _sentences(found), _verdicts(found, bolt, markdown=markdown)]
+    if comment := dataset.attrs.get("comment"):
+        blocks.append(textwrap.fill(str(comment), WIDTH))
+    click.echo("\n\n".join(blocks))
+
+
+def _shares(found: xr.Dataset, *, markdown: bool) -> str:
+    records = [str(name) for name in found["record"].values]
+    rows = [
+        [str(part), *(_cell(*pair) for pair in zip(shares, verdicts, strict=True)), str(together)]
+        for part, shares, verdicts, together in zip(
+            found["part"].values,
+            found["share"].values,
+            found["verdict"].values,
+            found["verdict_of_part"].values,
+            strict=True,
+        )
+    ]
+    return _table(["part", *records, "verdict"], rows, left=("part", "verdict"), markdown=markdown)
+
+
+def _cell(share: float, verdict: str) -> str:
+    """Write a share in percent, cut rather than rounded, so that what falls short of all never reads 100."""
+    return "" if math.isnan(share) else f"{math.floor(100.0 * share + 1e-9)} {MARKS[str(verdict)]}"
+
+
+def _sentences(found: xr.Dataset) -> str:
+    names, sentences = found["part"].values, found["sentence"].values
+    return "\n".join(
+        textwrap.fill(f"{name:3} {sentence}", WIDTH, subsequent_indent="    ")
+        for name, sentence in zip(names, sentences, strict=True)
+    )
+
+
+def _verdicts(found: xr.Dataset, bolt: xr.Dataset, *, markdown: bool) -> str:
+    from fdspec.measures.claims import CLAIMS, verdict_of_claim
+
+    rows = [
+        [
+            f"({letter})",
+            verdict_of_claim(found, letter),
+            "differ" if _records_differ(found, letter) else "agree",
+            verdict_of_claim(bolt, letter),
+            claim,
+        ]
+        for letter, claim in CLAIMS.items()
+    ]
+    head = ["claim", "verdict", "records", "if of one bolt", "the study says"]
+    told = (
+        "Where records differ, the stand-ins may decide; where they agree, that is unlikely. If of one bolt: "
+        f"the verdict when the study's pretension is 1/{BOLT_FACTOR:g} of what it is taken for here."
+    )
+    return f"{_table(head, rows, left=head, markdown=markdown)}\n\n{textwrap.fill(told, WIDTH)}"
+
+
+def _records_differ(found: xr.Dataset, letter: str) -> bool:
+    rows = found["verdict"].values[found["claim"].values == letter]
+    return any(len(set(row.tolist())) > 1 for row in rows)
+
+
+def _table(
+    head: list[str], rows: list[list[str]], *, left: list[str] | tuple[str, ...], markdown: bool
+) -> str:
+    if not markdown:
+        return table(head, rows, left=tuple(left))
+    rule = [":--" if name in left else "--:" for name in head]
+    return "\n".join("| " + " | ".join(row) + " |" for row in [head, rule, *rows])
