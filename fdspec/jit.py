@@ -9,23 +9,25 @@ no fastmath    it breaks isnan and changes bits with the machine.
 no parallel    one level of parallelism only: the scheduler's.
 no cfunc       nothing here is called from C; its wrappers cost time and memory to compile.
 signatures     entries are compiled for one explicit signature: nothing compiles a second time for
-               another type, and processes that start together write the same cache entry.
+               another type.
 cache          entries only: what they call is compiled into them.  numba knows an entry to be stale
                when its own file has changed, not when a callee's has, so the cache folder is named
-               after the source of all kernels.
+               after the source of all kernels.  One process compiles, others wait (kernel_cache.py).
 """
 
 from __future__ import annotations
 
 import hashlib
 import os
-import tempfile
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Final, TypeVar
 
 import numba
+from llvmlite.binding import get_host_cpu_features, get_host_cpu_name
 from numba import config, types
+
+from fdspec.kernel_cache import cache_folder, compiling
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -44,36 +46,19 @@ def record_of(cls: type) -> types.Type:
 
 
 def source_key() -> str:
-    """Name of the kernels' source: changes when any of their files does."""
-    digest = hashlib.sha256()
+    """Name of the kernels' source and of the compiler: changes when any of their files does."""
+    digest = hashlib.sha256(numba.__version__.encode())
     for path in sorted([*KERNELS.glob("*.py"), Path(__file__)]):
         digest.update(path.name.encode())
         digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
 
 
-def cache_folder() -> Path | None:
-    """A writable folder for compiled kernels, or None when there is none to be had.
-
-    ``FDSPEC_CACHE_DIR`` wins, then numba's own ``NUMBA_CACHE_DIR``, then the user's cache folder,
-    then the system's temporary folder (read-only homes are common on clusters).
-    """
-    named = os.environ.get("FDSPEC_CACHE_DIR") or config.CACHE_DIR
-    home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-    user = f"fdspec-{os.getuid()}" if hasattr(os, "getuid") else "fdspec"
-    candidates = [Path(named)] if named else [home / "fdspec", Path(tempfile.gettempdir()) / user]
-    for candidate in candidates:
-        folder = candidate / source_key()
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-            with tempfile.TemporaryFile(dir=folder):
-                return folder
-        except OSError:
-            continue
-    return None
+CACHE = cache_folder(source_key(), os.environ.get("FDSPEC_CACHE_DIR") or config.CACHE_DIR)
+"""Where compiled kernels are kept: ``FDSPEC_CACHE_DIR`` wins, then numba's own ``NUMBA_CACHE_DIR``."""
 
 
-CACHE = cache_folder()
+OPTIONS: Final[dict[str, Any]] = {"nogil": True, "error_model": "numpy"}
 
 
 def inner(function: Function) -> Function:
@@ -82,21 +67,13 @@ def inner(function: Function) -> Function:
     It makes no arrays, and so counts no references to those it is handed: counting is atomic, and in
     a step of a microsecond it cost as much as the arithmetic.
     """
-    compiled: Function = numba.njit(nogil=True, error_model="numpy", _nrt=False, no_cfunc_wrapper=True)(
-        function
-    )
+    compiled: Function = numba.njit(_nrt=False, no_cfunc_wrapper=True, **OPTIONS)(function)
     return compiled
 
 
 def inlined(function: Function) -> Function:
     """Compile a rule of the time loop; a call would copy its tuples of constants onto the stack."""
-    compiled: Function = numba.njit(
-        nogil=True,
-        error_model="numpy",
-        _nrt=False,
-        forceinline=True,
-        no_cfunc_wrapper=True,
-    )(function)
+    compiled: Function = numba.njit(_nrt=False, forceinline=True, no_cfunc_wrapper=True, **OPTIONS)(function)
     return compiled
 
 
@@ -107,11 +84,21 @@ def entry(signature: Any) -> Callable[[Function], Function]:
         previous = config.CACHE_DIR
         config.CACHE_DIR = str(CACHE) if CACHE else ""
         try:
-            compiled: Function = numba.njit(
-                signature, nogil=True, error_model="numpy", cache=CACHE is not None
-            )(function)
+            with compiling(None if config.DISABLE_JIT else CACHE, _identity(function)):
+                compiled: Function = numba.njit(signature, cache=CACHE is not None, **OPTIONS)(function)
+        except OSError:  # the folder is full, or gone since it was found
+            compiled = numba.njit(signature, **OPTIONS)(function)
         finally:
             config.CACHE_DIR = previous
         return compiled
 
     return decorate
+
+
+def _identity(function: Callable[..., Any]) -> str:
+    """Name of a function for the cache: numba compiles anew when its file has changed, or the processor."""
+    file = function.__code__.co_filename
+    state = Path(file).stat()
+    cpu = (get_host_cpu_name(), get_host_cpu_features().flatten(), config.CPU_NAME, config.CPU_FEATURES)
+    text = repr((file, state.st_mtime_ns, state.st_size, cpu))
+    return f"{function.__name__}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"
