@@ -33,8 +33,12 @@ AXES: Final = ("stiffness_ratio", "pretension", "period")
 
 STUDY_RECORDS: Final = ("FSR1", "FSR2", "FSR3", "FMR1", "FMR2", "FMR3", "FHR1", "FHR2", "FHR3")
 
-OUTPUTS: Final = tuple(v.name for v in CUBE.values() if v.dims[:1] == ("record",) and len(v.dims) > 1)
-"""What a study may ask for: the variables of a cube that depend on more than the record."""
+_OUTPUTS: Final = tuple(v for v in CUBE.values() if v.dims[:1] == ("record",) and len(v.dims) > 1)
+OUTPUTS: Final = tuple(v.name for v in _OUTPUTS if not v.on_request)
+"""What a study computes unless it names its outputs: what depends on more than the record."""
+
+ON_REQUEST: Final = tuple(v.name for v in _OUTPUTS if v.on_request)
+"""What it computes only where it is named."""
 
 MAX_AXIS: Final = 1_000_000
 """Points of one axis; a step with a slipped decimal is refused before it fills the memory."""
@@ -174,7 +178,7 @@ normal_force_factor = {grid.normal_force_factor!r}
 # Of the brace on its own.
 brace_damping_ratio = {grid.brace_damping_ratio!r}
 
-# Variables of the cube; left out, all of them.
+# Variables of the cube; left out, these. Only on request: {", ".join(ON_REQUEST)}.
 {"# " if self.outputs is None else ""}outputs = {_strings(OUTPUTS if self.outputs is None else self.outputs)}
 # Check the energy balance of every history.
 certify = {_bool(self.certify)}
@@ -287,9 +291,10 @@ def _distinct(values: tuple[Any, ...]) -> tuple[Any, ...]:
 
 
 def _output(value: str) -> str:
-    if value not in OUTPUTS:
-        near = difflib.get_close_matches(value, OUTPUTS, n=1)
-        hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(OUTPUTS)}"
+    known = (*OUTPUTS, *ON_REQUEST)
+    if value not in known:
+        near = difflib.get_close_matches(value, known, n=1)
+        hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
         raise ValueError(f"does not know {value!r}; {hint}")
     return value
 

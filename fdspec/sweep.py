@@ -22,8 +22,12 @@ SECONDS_PER_SAMPLE: Final = 12e-9
 """Core time of one history for each sample of its record, roughly; for plans, not for results."""
 
 LIMITS: Final = ("elastic_acceleration", "braced_acceleration")
-RESPONSES: Final = tuple(v.name for v in CUBE.values() if v.dims == STUDY_DIMS)
+RESPONSES: Final = tuple(v.name for v in CUBE.values() if v.dims == STUDY_DIMS and not v.on_request)
 OUTPUTS: Final = (*RESPONSES, *LIMITS)
+STRAIN: Final = ("strain_energy_area", "peak_strain_energy")
+BARE_STRAIN: Final = ("bare_strain_energy_area", "bare_peak_strain_energy")
+ON_REQUEST: Final = (*STRAIN, *BARE_STRAIN)
+"""Outputs that take a pass of their own over the histories, and so are computed only where named."""
 
 
 def sweep(
@@ -64,7 +68,7 @@ def sweep(
     friction_coefficient, kinetic_friction_coefficient, normal_force_factor : float
         Slip force = friction_coefficient * normal_force_factor * pretension.
     outputs : iterable of str, optional
-        Variables of the cube; all unless given.
+        Variables of the cube; unless given, all but those of `ON_REQUEST`, the strain energies.
     certify : bool
         Whether to compute ``energy_error``; without it the sweep is faster.
     workers : int, optional
@@ -106,13 +110,14 @@ def sweep(
         brace_damping_ratio=brace_damping_ratio,
     )
     motions = named(motions)
-    wanted = chosen(outputs, OUTPUTS, certify)
+    wanted = chosen(OUTPUTS if outputs is None else outputs, (*OUTPUTS, *ON_REQUEST), certify)
+    strain = bool(set(ON_REQUEST) & set(wanted))
     n_sr, n_f, n_t = grid.shape
     seconds = [_core_seconds(motion.n, grid, certify) for motion in motions]
     tasks = plan(n_sr * n_t, seconds, columns_per_task, "columns_per_task")
     energy = certify or bool({"input_energy", "energy_error"} & set(wanted))
     parts = fan_out(
-        partial(_run_columns, grid, energy, certify),
+        partial(_run_columns, grid, energy, certify, strain),
         motions,
         tasks,
         each=n_f,
@@ -168,9 +173,12 @@ def _frames(grid: Grid, columns: NDArray[np.int64]) -> FloatArray:
 
 
 def _run_columns(
-    grid: Grid, energy: bool, certify: bool, columns: NDArray[np.int64], motion: GroundMotion
+    grid: Grid, energy: bool, certify: bool, strain: bool, columns: NDArray[np.int64], motion: GroundMotion
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Integrate some (stiffness ratio, period) pairs: all pretensions, never slipping, without brace."""
+    """Integrate some (stiffness ratio, period) pairs: all pretensions, never slipping, without brace.
+
+    Results in the order of RESULTS, then of STRAIN; those without brace: acceleration, then BARE_STRAIN.
+    """
     from fdspec.columns import integrate_columns
 
     frames = _frames(grid, columns)
@@ -180,7 +188,15 @@ def _run_columns(
     bare = frames[columns < grid.period.size].copy()  # the first stiffness ratio's pairs stand for all
     bare[:, 3:] = 0.0
     free, _ = integrate_columns(bare, np.empty(0), np.empty(0), motion, energy=False, certify=False)
-    return results, braced[:, 0], free[:, 0]
+    free = free[:, :1]
+    if strain:
+        from fdspec.strain import strain_of_columns
+
+        never = np.array([np.inf]), np.array([0.0])
+        added = strain_of_columns(frames, grid.slip_force, grid.kinetic_slip_force, motion)
+        results = np.concatenate([results, added], axis=-1)
+        free = np.concatenate([free, strain_of_columns(bare, *never, motion)[:, 0]], axis=-1)
+    return results, braced[:, 0], free
 
 
 def _variables(
@@ -193,15 +209,20 @@ def _variables(
     """Put what the tasks returned where it stands in the cube."""
     from fdspec.kernels.sdof import RESULTS
 
+    rows = (*RESULTS, *STRAIN)
     n_sr, n_f, n_t = grid.shape
     responses: dict[str, NDArray[np.generic]] = {
-        name: np.empty((n_r, n_sr, n_f, n_t), dtype=CUBE[name].dtype) for name in wanted if name in RESULTS
+        name: np.empty((n_r, n_sr, n_f, n_t), dtype=CUBE[name].dtype) for name in wanted if name in rows
     }
-    limits = {"braced_acceleration": np.empty((n_r, n_sr, n_t)), "elastic_acceleration": np.empty((n_r, n_t))}
+    bare = ("elastic_acceleration", *BARE_STRAIN)
+    limits = {name: np.empty((n_r, n_t)) for name in bare if name in wanted}
+    limits["braced_acceleration"] = np.empty((n_r, n_sr, n_t))
     for (r, columns), (out, braced, free) in zip(tasks, parts, strict=True):
         ratio, period = np.unravel_index(columns, (n_sr, n_t))
         for name, values in responses.items():
-            values[r, ratio, :, period] = out[:, :, RESULTS.index(name)]
+            values[r, ratio, :, period] = out[:, :, rows.index(name)]
         limits["braced_acceleration"][r, ratio, period] = braced
-        limits["elastic_acceleration"][r, columns[columns < n_t]] = free
+        for row, name in enumerate(bare):
+            if name in limits:
+                limits[name][r, columns[columns < n_t]] = free[:, row]
     return responses | {name: limits[name] for name in wanted if name in limits}

@@ -39,6 +39,8 @@ class Variable:
     long_name: str
     dtype: str = "float64"
     attributes: Mapping[str, object] = field(default_factory=dict)
+    on_request: bool = False
+    """Whether a sweep computes it only where its outputs name it."""
 
     @property
     def cf_attributes(self) -> dict[str, object]:
@@ -114,6 +116,18 @@ def response_variables(grid: tuple[str, ...], storey: tuple[str, ...] = ()) -> t
     )
 
 
+def _strain_variables() -> tuple[Variable, ...]:
+    """Return what Filiatrault and Cherry's index is made of: a pass of its own over every history."""
+    bare = ("record", "period")
+    area, peak = "area under the history of elastic energy in", "peak elastic energy in"
+    return (
+        Variable("strain_energy_area", STUDY_DIMS, "J s", f"{area} frame and brace", on_request=True),
+        Variable("peak_strain_energy", STUDY_DIMS, "J", f"{peak} frame and brace", on_request=True),
+        Variable("bare_strain_energy_area", bare, "J s", f"{area} the frame without brace", on_request=True),
+        Variable("bare_peak_strain_energy", bare, "J", f"{peak} the frame without brace", on_request=True),
+    )
+
+
 CUBE: Final[Registry] = registry_of(
     motion_variables(("record",)),
     (
@@ -140,6 +154,7 @@ CUBE: Final[Registry] = registry_of(
             "peak absolute acceleration of the floor with a damper that never slips",
         ),
     ),
+    _strain_variables(),
 )
 """The variables of a sweep over single-storey frames, dims (record, stiffness_ratio, pretension, period)."""
 

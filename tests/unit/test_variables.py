@@ -19,7 +19,7 @@ from fdspec.variables import (
     response_variables,
 )
 
-UNITS = {"m/s^2", "m", "m/s", "N", "N/m", "J", "s", "kg", "1"}
+UNITS = {"m/s^2", "m", "m/s", "N", "N/m", "J", "J s", "s", "kg", "1"}
 CONTRACT_OF_SWEEP = [
     "peak_acceleration",
     "peak_displacement",
