@@ -185,6 +185,11 @@ certify = {_bool(self.certify)}
 """
 
 
+def is_catalogued(record: str) -> bool:
+    """Say whether this is a name of the catalogue, upper or lower case."""
+    return any(record.upper() == entry.name for entry in catalogue())
+
+
 def find_record(record: str | RecordFile, *, folder: Path = Path(), scaled: bool = True) -> GroundMotion:
     """Load a record by its name in the catalogue or, when it is none, by its path relative to `folder`.
 
@@ -194,10 +199,9 @@ def find_record(record: str | RecordFile, *, folder: Path = Path(), scaled: bool
         When there is no such name and no such file, or the file cannot be used.
     """
     if isinstance(record, str):
-        is_name = any(record.upper() == entry.name for entry in catalogue())
         path = folder / record
         looks_like_path = bool(path.suffix) or len(Path(record).parts) > 1 or path.exists()
-        if is_name or not looks_like_path:
+        if is_catalogued(record) or not looks_like_path:
             return load_record(record, scaled=scaled)
         record = RecordFile(record)
     about = {key: value for key, value in asdict(record).items() if key != "path"}

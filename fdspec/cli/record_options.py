@@ -30,20 +30,38 @@ def file_options(command: Callable[P, R]) -> Callable[P, R]:
     return command
 
 
+def named_record(record: str, units: str | None, dt: float | None, channel: str | None) -> str | RecordFile:
+    """Return what `fdspec.study` takes for one record: a name, or a file with what the options tell."""
+    (named,) = _named([record], units, dt, channel)
+    return named
+
+
 def named_records(
     records: Iterable[str], units: str | None, dt: float | None, channel: str | None
 ) -> tuple[str | RecordFile, ...]:
-    """Return what `fdspec.study` takes for records: names, or files with what the options tell.
-
-    `FSR1,FSR2` is taken for two, unless there is a file of that name.
-    """
-    from fdspec.study import RecordFile
-
+    """Return the same for several; `FSR1,FSR2` is taken for two, unless there is a file of that name."""
     names = [
         name
         for given in records
         for name in ([given] if Path(given).exists() else filter(None, given.split(",")))
     ]
+    return _named(names, units, dt, channel)
+
+
+def _named(
+    names: list[str], units: str | None, dt: float | None, channel: str | None
+) -> tuple[str | RecordFile, ...]:
+    from fdspec.study import RecordFile, is_catalogued
+
+    if not names or not all(name.strip() for name in names):
+        raise click.UsageError("A record has a name or is a file: give one.")
     if units is None and dt is None and channel is None:
         return tuple(names)
-    return tuple(RecordFile(name, units=units, dt=dt, channel=channel) for name in names)
+    if all(map(is_catalogued, names)):
+        raise click.UsageError(
+            f"--units, --dt and --channel tell about a file; the catalogue knows {', '.join(names)}."
+        )
+    return tuple(
+        name if is_catalogued(name) else RecordFile(name, units=units, dt=dt, channel=channel)
+        for name in names
+    )

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from fdspec.cli.output import force_option, free
-from fdspec.cli.record_options import file_options, named_records
+from fdspec.cli.record_options import file_options, named_record
 
 if TYPE_CHECKING:
     from fdspec.motion import GroundMotion
@@ -67,7 +67,7 @@ def convert_record(
     from fdspec.study import find_record
     from fdspec.units import G
 
-    (named,) = named_records([record], units, dt, channel)
+    named = named_record(record, units, dt, channel)
     motion = find_record(named, scaled=not raw)
     if trim is not None:
         motion = processing.trimmed(motion, *trim)

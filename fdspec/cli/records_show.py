@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 import click
 
 from fdspec.cli.output import PICTURES, force_option, free, save_picture
-from fdspec.cli.record_options import file_options, named_records
+from fdspec.cli.record_options import file_options, named_record
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -52,7 +52,7 @@ def show_record(
     from fdspec.study import find_record
     from fdspec.units import G
 
-    (named,) = named_records([record], units, dt, channel)
+    named = named_record(record, units, dt, channel)
     motion = find_record(named, scaled=not raw)
     about: dict[str, object] = {
         "name": motion.name,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from fdspec.cli.output import PICTURES, force_option, free, save_picture
-from fdspec.cli.record_options import file_options, named_records
+from fdspec.cli.record_options import file_options, named_record
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -112,7 +112,7 @@ def simulate(
         kinetic_slip_force=kinetic_slip_force,
         brace_damping_ratio=brace_damping_ratio,
     )
-    (named,) = named_records([record], units, dt, channel)
+    named = named_record(record, units, dt, channel)
     motion = find_record(named, scaled=not raw)
     history = compute(frame, motion, dt_out=dt_out, free_vibration=free_vibration)
     save(history, paths[0], overwrite=force)

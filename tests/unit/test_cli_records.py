@@ -246,6 +246,12 @@ def test_link_fails_when_nothing_was_found(own: Path, capsys: pytest.CaptureFixt
         (["convert", "FMR1", "-o", "new.at2", "--pga-g", "-1"], "pga must be positive"),
         (["convert", "FMR1", "-o", "new.at2", "--trim", "5", "1"], "end"),
         (["convert", "none.AT2", "-o", "new.at2"], "none.AT2: there is no such file"),
+        (["show", "FSR1,FSR2"], "there is no record 'FSR1,FSR2' in the catalogue"),
+        (["show", ""], "A record has a name or is a file: give one"),
+        (["show", "fsr1", "--units", "g"], "tell about a file; the catalogue knows fsr1"),
+        (["convert", "FSR1,FSR2", "-o", "new.at2"], "there is no record 'FSR1,FSR2' in the catalogue"),
+        (["figures", "--record", ","], "A record has a name or is a file: give one"),
+        (["figures", "--record", "FMR1", "--dt", "0.01"], "tell about a file; the catalogue knows FMR1"),
         (["figures", "--units", "g"], "tell about a file named with --record"),
         (["figures", "--record", "FMR1", "--record", "FMR1"], "names that differ"),
         (["figures", "--record", "FMR1", "--damping-ratio", "-1"], "damping_ratio must be 0 or more"),
@@ -349,6 +355,16 @@ def test_figures_of_a_name_and_a_file(tmp_path: Path, capsys: pytest.CaptureFixt
     assert "exists already" in capsys.readouterr().err
     output(capsys, "figures", *chosen, "--force")
     assert [path.read_bytes() for path in paths] == first
+
+
+def test_what_is_told_of_a_file_leaves_names_alone(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "mine.txt"
+    path.write_text("".join(f"{math.sin(0.1 * k):.6f}\n" for k in range(300)))
+    both = ["--record", "FMR1", "--record", str(path)]
+    output(capsys, "figures", *both, "--units", "m/s2", "--dt", "0.02", "-o", str(tmp_path / "drawn"))
+    assert len(list((tmp_path / "drawn").iterdir())) == 2
 
 
 def test_figures_draw_the_nine(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

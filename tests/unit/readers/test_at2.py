@@ -140,7 +140,15 @@ REAL = [
     ("formats/peer_nga1_hdr_nptsdt__HWA031-V.AT2", 8200, 0.005, None),
     ("formats/peer_nga_east_hdr__RSN10590.AT2", 15306, 0.05, None),
     ("formats/peer_nga_tabhdr__MANJIL_T.AT2", 2300, 0.02, None),
+    ("formats/peer_nga_west2__RSN763_LOMAP_GIL067.AT2", 7999, 0.005, 0.3585),
+    ("formats/peer_old__CHY035-N.AT2", 18000, 0.005, 0.2462),
+    ("formats/peer_old__KOBE_SHI000.AT2", 4096, 0.01, 0.2432),
 ]
+
+
+def test_every_real_file_is_read_below(shared_records):
+    found = {f"{path.parent.name}/{path.name}" for path in shared_records.glob("*/*.AT2")}
+    assert found == {name for name, *_ in REAL}
 
 
 @pytest.mark.parametrize(("name", "count", "dt", "pga_g"), REAL)

@@ -126,8 +126,9 @@ def test_one_lost_row_shows_wherever_it_is(record_file, lost):
         read_record(record_file("\n".join(rows), "two.dat"), units="m/s2")
 
 
-def test_the_real_fsr1(shared_records):
-    path = shared_records / "real" / "Kobe_KAKOGAWA_CUE90.dat"
+@pytest.mark.parametrize("name", ["real/Kobe_KAKOGAWA_CUE90.dat", "formats/twocol_seismosoft__Kobe.dat"])
+def test_the_real_fsr1(shared_records, name):
+    path = shared_records / name
     plain = np.loadtxt(path, skiprows=5)
     motion = read_record(path)
     assert motion.acceleration.tolist() == (plain[:, 1] * G).tolist()
