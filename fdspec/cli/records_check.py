@@ -31,25 +31,16 @@ LINE: Final = 110
 
 
 @click.command("check")
-@click.argument("folder", metavar="[DIR]", required=False)
+@click.argument("folder", metavar="DIR")
 @click.option("--link", is_flag=True, help="From now on load those found in place of the stand-ins.")
-@click.option("--unlink", is_flag=True, help="Load the stand-ins again; takes no DIR.")
 @click.option("--json", "as_json", is_flag=True, help="All matches and all files that are none, as JSON.")
-def check_records(folder: str | None, link: bool, unlink: bool, as_json: bool) -> None:
+def check_records(folder: str, link: bool, as_json: bool) -> None:
     """Look through a folder of your own files, and those in it, for the study's nine records.
 
     A record is found when event, station, component and PGA agree. The study does not name the stations of
     FMR1, FMR3 and FHR2: components of the same event with the same PGA are candidates, as are near misses of
-    the others. --link takes what was found, never a candidate.
+    the others. --link takes what was found, never a candidate; `fdspec records link` takes one.
     """
-    if unlink and (folder is not None or link):
-        raise click.UsageError("--unlink takes neither DIR nor --link.")
-    if unlink:
-        _unlink(as_json)
-        return
-    if folder is None:
-        raise click.UsageError("Missing argument 'DIR'.")
-
     from fdspec.progress import progress
     from fdspec.records.check import check_folder, link_found
     from fdspec.records.links import links
@@ -62,21 +53,6 @@ def check_records(folder: str | None, link: bool, unlink: bool, as_json: bool) -
     click.echo(report(folder, check, links()))
     if link and not new:
         raise FdspecError(f"{folder} has none of the study's records for certain: nothing was linked")
-
-
-def _unlink(as_json: bool) -> None:
-    from fdspec.errors import RecordError
-    from fdspec.records.links import links, links_file, remove_links
-
-    try:
-        names = list(links())
-    except RecordError:  # a damaged file of links goes as a whole
-        names = []
-    remove_links()
-    if as_json:
-        click.echo(json.dumps({"unlinked": names, "links_file": str(links_file())}, indent=2))
-    else:
-        click.echo(f"unlinked: {', '.join(names) or 'nothing'}; the stand-ins are loaded")
 
 
 def _as_json(folder: str, check: Check, known: Mapping[str, Link]) -> str:
@@ -104,18 +80,21 @@ def _as_json(folder: str, check: Check, known: Mapping[str, Link]) -> str:
 
 
 def _as_text(folder: str, check: Check, known: Mapping[str, Link]) -> str:
+    from fdspec.cli.records_link import linked_lines
+    from fdspec.records import catalogue
+
     lines = [table(HEAD, _rows(folder, check), left=HEAD), "", _count(check)]
     if check.unread:
         lines += ["", f"{counted(len(check.unread), 'file')} of {check.files} not read:"]
         lines += [f"  {_short(reason)}" for _, reason in check.unread[:UNREAD]]
         if len(check.unread) > UNREAD:
             lines.append(f"  and {len(check.unread) - UNREAD} more; --json lists all")
-    if known:
-        lines += ["", "Linked, and loaded in place of the stand-ins:"]
-        lines += [f"  {name}  {link.path}" for name, link in sorted(known.items())]
-    elif any(match.status == "found" for match in check.matches):
-        lines += ["", "--link loads those found in place of the stand-ins from now on."]
-    return "\n".join(lines)
+    told = linked_lines(known)
+    if not known and any(match.status == "found" for match in check.matches):
+        told = ["", "--link loads those found in place of the stand-ins from now on."]
+    if any(entry.name not in known and check.status(entry.name) == "candidate" for entry in catalogue()):
+        told += ["", "fdspec records link NAME FILE links a candidate that you know to be the one."]
+    return "\n".join(lines + told)
 
 
 def _rows(folder: str, check: Check) -> list[tuple[str, ...]]:

@@ -143,6 +143,7 @@ def _stand_in(entry: CatalogueEntry) -> GroundMotion:
 
 
 def _own(entry: CatalogueEntry, link: Link) -> GroundMotion:
-    motion = read_record(link.path, channel=link.channel, name=entry.name)
-    source = f"the user's own {entry.name}: {motion.source}, {motion.station} {motion.component}".strip()
-    return replace(motion, source=f"{source}; SHA-256 {link.sha256}")
+    motion = read_record(link.path, channel=link.channel, units=link.units, dt=link.dt, name=entry.name)
+    said = (motion.source, motion.event, f"{motion.station} {motion.component}".strip())
+    source = f"the user's own {entry.name}: {', '.join(filter(None, said))}; SHA-256 {link.sha256}"
+    return replace(motion, source=source)

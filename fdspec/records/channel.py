@@ -13,7 +13,8 @@ class Channel:
     """One acceleration channel of a record file.
 
     `name` is how a caller picks it among others of the file, `acceleration` is in m/s2, `dt` in s, `units`
-    are those of the file, `processing` says what the agency did to the samples, one step an item.
+    are those of the file, `processing` says what was done to the samples, by the agency or by us before they
+    were written, one step an item. `source` and `scale_factor` are those of a motion that we wrote.
     """
 
     name: str
@@ -24,3 +25,5 @@ class Channel:
     station: str = ""
     component: str = ""
     processing: tuple[str, ...] = ()
+    source: str = ""
+    scale_factor: float = 1.0

@@ -7,6 +7,7 @@ direction and PGA; for the others, components of the same event with the same PG
 from __future__ import annotations
 
 import re
+import warnings
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,9 +16,9 @@ from typing import Final
 
 from fdspec.errors import RecordError
 from fdspec.motion import GroundMotion
-from fdspec.records.catalogue import CatalogueEntry, catalogue
+from fdspec.records.catalogue import CatalogueEntry, catalogue, catalogue_entry
 from fdspec.records.links import Link, checksum, save_links
-from fdspec.records.reading import read_channels
+from fdspec.records.reading import read_channels, read_record
 from fdspec.units import G
 
 FOUND: Final = "found"
@@ -159,6 +160,58 @@ def link_matches(matches: Iterable[Match]) -> Path | None:
     """Link these matches, also candidates that the user knows better; return the file of links."""
     added = {match.name: Link(match.path, match.channel, checksum(match.path)) for match in matches}
     return save_links(added) if added else None
+
+
+def link_file(
+    name: str,
+    path: str | Path,
+    *,
+    channel: str | None = None,
+    units: str | None = None,
+    dt: float | None = None,
+) -> Match:
+    """Link one file that the user knows to be a record of the study, whatever it says of itself.
+
+    Parameters
+    ----------
+    name : str
+        Of the study's record, such as "FMR3".
+    path : path
+        The file; it must be readable.
+    channel, units, dt
+        As `read_record` takes them.
+
+    Returns
+    -------
+    Match
+        What was linked; `status` is "found" when the file says so itself, else "candidate".
+
+    Raises
+    ------
+    RecordError
+        When the name is unknown or the file cannot be read.
+
+    Warns
+    -----
+    UserWarning
+        When neither event nor PGA speak for the file.
+    """
+    entry = catalogue_entry(name)
+    channels = tuple(read_channels(path, units=units, dt=dt))
+    if channel is None and len(channels) == 1:
+        channel = channels[0]
+    motion = read_record(path, channel=channel, units=units, dt=dt)  # refused while it is unclear which
+    judged = _judge(entry, Path(path), motion)
+    if judged is None:
+        pga = f"PGA {motion.pga / G:.4f} g, the study's is {entry.pga_g:.3f}"
+        told = " ".join(filter(None, (motion.event, motion.station, motion.component))) or "no origin"
+        study = f"{entry.name}, of {entry.event} {entry.date.year}"
+        warnings.warn(f"{path} does not look like {study}: it says {told}, {pga}", UserWarning, stacklevel=2)
+        judged = CANDIDATE, pga
+    status, reason = judged
+    match = Match(entry.name, status, Path(path).resolve(), str(channel), motion.pga / G, reason)
+    save_links({entry.name: Link(match.path, match.channel, checksum(match.path), units, dt)})
+    return match
 
 
 def _judge(entry: CatalogueEntry, path: Path, motion: GroundMotion) -> tuple[str, str] | None:

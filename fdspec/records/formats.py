@@ -6,7 +6,21 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
-from fdspec.records import at2, bhrc, cosmos, csmip, csmip_v1, cwb, esm, geonet, knet, nsmn, smc, unam
+from fdspec.records import (
+    at2,
+    bhrc,
+    cosmos,
+    csmip,
+    csmip_v1,
+    cwb,
+    esm,
+    geonet,
+    knet,
+    nsmn,
+    smc,
+    unam,
+    written,
+)
 from fdspec.records.channel import Channel
 from fdspec.records.textfile import TextFile
 
@@ -22,5 +36,5 @@ class Format:
 
 FORMATS: Final = tuple(
     Format(module.NAME, module.recognises, module.read)
-    for module in (at2, cosmos, csmip, csmip_v1, smc, esm, knet, geonet, cwb, nsmn, unam, bhrc)
+    for module in (at2, cosmos, csmip, csmip_v1, smc, esm, knet, geonet, cwb, nsmn, unam, bhrc, written)
 )

@@ -10,7 +10,7 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 from fdspec.errors import RecordError
 
@@ -20,11 +20,16 @@ VARIABLE: Final = "FDSPEC_RECORDS"
 
 @dataclass(frozen=True)
 class Link:
-    """One record of the study, found among the user's files; `sha256` is that of the file."""
+    """One record of the study, found among the user's files; `sha256` is that of the file.
+
+    `units` and `dt`, s, are told of a file that does not say them itself.
+    """
 
     path: Path
     channel: str
     sha256: str
+    units: str | None = None
+    dt: float | None = None
 
 
 def links_file() -> Path:
@@ -40,16 +45,24 @@ def links() -> dict[str, Link]:
     file = links_file()
     try:
         tables = tomllib.loads(file.read_text(encoding="utf-8"))
-        return {
-            name: Link(Path(table["path"]), str(table["channel"]), str(table["sha256"]))
-            for name, table in tables.items()
-        }
+        return {name: _link(table) for name, table in tables.items()}
     except FileNotFoundError:
         return {}
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise RecordError(
             f"{file}: the file of links cannot be read ({error}); correct or delete it"
         ) from error
+
+
+def _link(table: Mapping[str, Any]) -> Link:
+    units, dt = table.get("units"), table.get("dt")
+    return Link(
+        Path(table["path"]),
+        str(table["channel"]),
+        str(table["sha256"]),
+        None if units is None else str(units),
+        None if dt is None else float(dt),
+    )
 
 
 def linked(name: str) -> Link | None:
@@ -57,7 +70,7 @@ def linked(name: str) -> Link | None:
     link = links().get(name)
     if link is None:
         return None
-    advice = f"check its folder again or take {name} out of {links_file()}"
+    advice = f"link it again or give it up with `fdspec records unlink {name}`"
     if not link.path.is_file():
         raise RecordError(f"{name} is linked to {link.path}, which is not there: {advice}")
     if checksum(link.path) != link.sha256:
@@ -94,6 +107,8 @@ def _write_links(kept: Mapping[str, Link]) -> Path:
         # A JSON string is a TOML string, whatever the path holds.
         lines += ["", f"[{name}]", f"path = {json.dumps(str(link.path))}"]
         lines += [f"channel = {json.dumps(link.channel)}", f'sha256 = "{link.sha256}"']
+        lines += [] if link.units is None else [f"units = {json.dumps(link.units)}"]
+        lines += [] if link.dt is None else [f"dt = {link.dt!r}"]
     return _write("\n".join(lines) + "\n")
 
 

@@ -45,7 +45,7 @@ def read_record(
     -------
     GroundMotion
         In m/s2, with event, station and component as far as the file says; what the agency did to the samples
-        opens its history.
+        opens its history. A file of `fdspec records convert` with the ending .txt brings back its history.
 
     Raises
     ------
@@ -152,8 +152,9 @@ def _motion(
             event=channel.event,
             station=channel.station,
             component=channel.component,
-            source=f"{file.name} ({which})",
+            source=", made from ".join(filter(None, (f"{file.name} ({which})", channel.source))),
             history=channel.processing,
+            scale_factor=channel.scale_factor,
         )
     except InvalidInput as error:  # numbers that fit the format and still make no motion
         raise RecordError(f"{file.name}: {error}") from error

@@ -10,28 +10,14 @@ from typing import Final
 
 from fdspec.errors import InvalidInput, RecordError
 from fdspec.motion import GroundMotion
+from fdspec.records import written
+from fdspec.records.written import one_line
 from fdspec.units import G
-
-
-def as_columns(motion: GroundMotion) -> str:
-    """Return time, s, and acceleration, m/s2, in two columns; every number reads back to the bit."""
-    # Times as k dt would print rounding errors; the digits of dt are enough for each.
-    decimals = max(len(f"{motion.dt:.15f}".rstrip("0").split(".")[1]), 1)
-    header = [
-        _line(motion.event) or "ground motion",
-        f"Station: {_line(motion.station)}",
-        f"Component: {_line(motion.component)}",
-        f"Source: {_line(motion.source)}",
-        *[f"Step: {_line(step)}" for step in motion.history],
-        "Time[s] Accel[m/s2]",
-    ]
-    rows = [f"{k * motion.dt:.{decimals}f}\t{x!r}" for k, x in enumerate(motion.acceleration.tolist())]
-    return "\n".join(header + rows) + "\n"
 
 
 def as_at2(motion: GroundMotion) -> str:
     """Return PEER's AT2: g, 17 digits, five a line; m/s2 come back within one rounding of the conversion."""
-    origin = [_line(text).replace(",", " ") for text in (motion.event, motion.station, motion.component)]
+    origin = [one_line(text).replace(",", " ") for text in (motion.event, motion.station, motion.component)]
     words = [f"{x:25.16E}" for x in (motion.acceleration / G).tolist()]
     rows = ["".join(words[k : k + 5]) for k in range(0, len(words), 5)]
     header = [
@@ -43,7 +29,7 @@ def as_at2(motion: GroundMotion) -> str:
     return "\n".join(header + rows) + "\n"
 
 
-LAYOUTS: Final = MappingProxyType({"at2": as_at2, "txt": as_columns})
+LAYOUTS: Final = MappingProxyType({"at2": as_at2, "txt": written.write})
 """Name of a layout, also the ending of its files -> what makes the text."""
 
 
@@ -73,8 +59,3 @@ def write_record(motion: GroundMotion, path: str | os.PathLike[str], layout: str
         partial.unlink(missing_ok=True)
         raise RecordError(f"{file}: cannot be written ({error})") from error
     return file
-
-
-def _line(text: str) -> str:
-    """Return text that fits one line of a header."""
-    return " ".join(text.split())

@@ -18,10 +18,41 @@ same_folder = settings(deadline=None, suppress_health_check=[HealthCheck.functio
 @same_folder
 @given(samples, steps)
 def test_columns_come_back_to_the_bit(tmp_path, acceleration, dt):
-    motion = GroundMotion(acceleration, dt, "a", event="E 1999", station="Old Mill")
+    again = read_record(write_record(GroundMotion(acceleration, dt, "a"), tmp_path / "a.txt"))
+    assert again == GroundMotion(acceleration, dt, "a", source="a.txt (columns of fdspec)")
+
+
+phrases = st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=20)
+
+
+@same_folder
+@given(st.lists(phrases, max_size=80), phrases, phrases, st.floats(1e-6, 100.0), st.floats(-9.0, 9.0))
+def test_columns_bring_back_the_whole_motion(tmp_path, history, event, source, dt, factor):
+    about = {"event": event, "station": event[::-1], "component": source[::-1], "history": history}
+    motion = GroundMotion([0.0, 1.0, -2.0], dt, "a", source=source, scale_factor=factor, **about)
     again = read_record(write_record(motion, tmp_path / "a.txt"))
+
+    def lines(text):
+        return " ".join(text.split())
+
     assert again.checksum == motion.checksum
-    assert (again.event, again.station) == ("E 1999", "Old Mill")
+    assert again.scale_factor == factor
+    assert again.history == tuple(map(lines, history))
+    assert again.event == lines(event)
+    assert (again.station, again.component) == (lines(event[::-1]), lines(source[::-1]))
+    assert again.source.removeprefix("a.txt (columns of fdspec)").removeprefix(", made from ") == lines(
+        source
+    )
+
+
+def test_columns_written_twice_say_both(tmp_path):
+    once = read_record(write_record(load_record("FSR1").scaled(2.0), tmp_path / "once.txt"))
+    twice = read_record(write_record(once.scaled(0.5), tmp_path / "twice.txt"))
+    assert len(twice.history) == len(load_record("FSR1").history) + 2
+    assert twice.scale_factor == load_record("FSR1").scale_factor
+    assert twice.source.startswith(
+        "twice.txt (columns of fdspec), made from once.txt (columns of fdspec), made from stand-in for"
+    )
 
 
 @same_folder

@@ -166,7 +166,8 @@ def test_check_reports_found_candidates_and_missing(own: Path, capsys: pytest.Ca
     assert "cut.AT2" in lines[unread + 1]
     assert "expected 41 values" in lines[unread + 1]
     assert "notes.txt" in lines[unread + 2]
-    assert lines[-1] == "--link loads those found in place of the stand-ins from now on."
+    assert lines[-3] == "--link loads those found in place of the stand-ins from now on."
+    assert lines[-1] == "fdspec records link NAME FILE links a candidate that you know to be the one."
     assert load_record("FSR1").source.startswith("stand-in for")
 
 
@@ -199,7 +200,7 @@ def test_check_as_json_lists_all(own: Path, capsys: pytest.CaptureFixture[str]) 
 def test_linked_records_are_loaded_until_unlinked(own: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = own / "deeper" / "kak.AT2"
     lines = output(capsys, "check", str(own), "--link").splitlines()
-    assert lines[-2:] == ["Linked, and loaded in place of the stand-ins:", f"  FSR1  {path}"]
+    assert lines[-4:-2] == ["Linked, and loaded in place of the stand-ins:", f"  FSR1  {path}"]
     assert load_record("FSR1").source.startswith("the user's own FSR1: kak.AT2")
     assert load_record("FMR1").source.startswith("stand-in for")  # a candidate is never linked
     about = json.loads(output(capsys, "show", "FSR1", "--json"))
@@ -210,9 +211,48 @@ def test_linked_records_are_loaded_until_unlinked(own: Path, capsys: pytest.Capt
     assert {record["name"]: record["linked"] for record in reported if record["linked"]} == {
         "FSR1": str(path)
     }
-    assert output(capsys, "check", "--unlink") == "unlinked: FSR1; the stand-ins are loaded\n"
+    assert output(capsys, "unlink") == "unlinked: FSR1; the stand-ins are loaded\n"
     assert load_record("FSR1").source.startswith("stand-in for")
-    assert json.loads(output(capsys, "check", "--unlink", "--json"))["unlinked"] == []
+    assert json.loads(output(capsys, "unlink", "--json"))["unlinked"] == []
+
+
+def test_a_candidate_is_linked_by_name_and_listed(own: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = output(capsys, "link", "fmr1", str(own / "n0.AT2"))
+    assert out == (
+        f"FMR1 is {own / 'n0.AT2'} from now on: same event, PGA 0.3640 g, the study's is 0.364; "
+        "the study does not name the station\n"
+    )
+    output(capsys, "check", str(own), "--link")
+    lines = output(capsys, "list").splitlines()
+    rows = {line.split()[0]: line for line in lines[1:10]}
+    assert "own: n0.AT2" in rows["FMR1"]
+    assert rows["FMR1"].endswith(f"{load_record('FMR1').scale_factor:.3f}")
+    assert "own: kak.AT2" in rows["FSR1"]
+    assert "Shin-Osaka 000" in rows["FSR2"]
+    told = ["Linked, and loaded in place of the stand-ins:", f"  FMR1  {own / 'n0.AT2'}"]
+    assert lines[11:] == [*told, f"  FSR1  {own / 'deeper' / 'kak.AT2'}"]
+    entries = {entry["name"]: entry["linked"] for entry in json.loads(output(capsys, "list", "--json"))}
+    assert entries["FMR1"]["path"] == str(own / "n0.AT2")
+    assert entries["FMR1"]["channel"] == "090"
+    assert entries["FSR2"] is None
+    assert output(capsys, "unlink", "FSR1", "fsr2") == "unlinked: FSR1; the stand-ins are loaded\n"
+    assert load_record("FMR1").source.startswith("the user's own FMR1")
+
+
+def test_list_says_which_link_is_broken(own: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = own / "deeper" / "kak.AT2"
+    output(capsys, "link", "FSR1", str(path))
+    path.write_text(path.read_text().replace("KAKOGAWA", "Kakogawa"))
+    lines = output(capsys, "list").splitlines()
+    assert "own: kak.AT2, refused" in lines[1]
+    assert lines[-1] == (
+        f"  FSR1 is linked to {path}, which was changed since: "
+        "link it again or give it up with `fdspec records unlink FSR1`"
+    )
+    assert main(["records", "show", "FSR1"]) == 2
+    assert "which was changed since" in capsys.readouterr().err
+    output(capsys, "unlink", "FSR1")
+    output(capsys, "show", "FSR1")
 
 
 def test_unlink_clears_a_damaged_file_of_links(own: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -220,7 +260,7 @@ def test_unlink_clears_a_damaged_file_of_links(own: Path, capsys: pytest.Capture
     links.write_text("not toml")
     assert main(["records", "check", str(own)]) == 2
     assert "correct or delete it" in capsys.readouterr().err
-    assert output(capsys, "check", "--unlink") == "unlinked: nothing; the stand-ins are loaded\n"
+    assert output(capsys, "unlink") == "unlinked: nothing; the stand-ins are loaded\n"
     assert not links.exists()
 
 
@@ -237,8 +277,10 @@ def test_link_fails_when_nothing_was_found(own: Path, capsys: pytest.CaptureFixt
     ("arguments", "words"),
     [
         (["check"], "Missing argument 'DIR'"),
-        (["check", "--unlink", "."], "--unlink takes neither DIR nor --link"),
-        (["check", "--unlink", "--link"], "--unlink takes neither DIR nor --link"),
+        (["unlink", "FSR9"], "there is no record 'FSR9' in the catalogue"),
+        (["link", "FSR1"], "Missing argument 'FILE'"),
+        (["link", "FSR9", "none.AT2"], "there is no record 'FSR9' in the catalogue"),
+        (["link", "FSR1", "none.AT2"], "none.AT2: there is no such file"),
         (["check", "nowhere"], "nowhere: is not a folder"),
         (["convert", "FMR1"], "Missing option"),
         (["convert", "FMR1", "-o", "new.csv"], "the name should end in .at2 or .txt"),

@@ -6,7 +6,7 @@ import pytest
 
 from fdspec.errors import RecordError
 from fdspec.records import catalogue, load_record
-from fdspec.records.check import check_folder, link_found, link_matches
+from fdspec.records.check import check_folder, link_file, link_found, link_matches
 from fdspec.records.links import Link, linked, links, links_file, remove_links, save_links
 from fdspec.units import G
 
@@ -117,7 +117,9 @@ def test_linked_records_are_loaded_in_place_of_the_stand_ins(folder, own_links):
     motion = load_record("FSR1", scaled=False)
     assert motion.pga == pytest.approx(0.3447 * G, rel=1e-12)
     assert motion.name == "FSR1"
-    assert motion.source.startswith("the user's own FSR1: fsr1_file.AT2 (PEER AT2), KAKOGAWA 090; SHA-256 ")
+    assert motion.source.startswith(
+        "the user's own FSR1: fsr1_file.AT2 (PEER AT2), KOBE 01/16/95 2046, KAKOGAWA 090; SHA-256 "
+    )
     scaled = load_record("FSR1")
     assert scaled.pga == pytest.approx(0.345 * G, rel=1e-15)
     assert scaled.history == (f"scaled by {scaled.scale_factor!r} to a PGA of {0.345 * G!r} m/s2",)
@@ -140,6 +142,55 @@ def test_a_candidate_is_linked_only_by_hand(tmp_path):
     assert "SOMEWHERE" in load_record("FMR1").source
 
 
+@pytest.mark.parametrize(
+    ("content", "arguments", "reason"),
+    [
+        (
+            at2("CHI-CHI 09/20/99", "CHY035", "N", 0.2462),
+            {},
+            "same event, PGA 0.2462 g, the study's is 0.246; ",
+        ),
+        ("t[s] NS[g] EW[g]\n0 0.1 0.246\n1 0 0\n2 0 0\n", {"channel": "ew"}, "PGA 0.2460 g, the study's is"),
+        ("0.1\n-2.46\n0\n", {"units": "m/s2", "dt": 0.01}, "PGA 0.2509 g, the study's is"),
+    ],
+)
+@pytest.mark.filterwarnings("ignore:.*does not look like FMR3")
+def test_one_file_is_linked_by_hand(tmp_path, content, arguments, reason):
+    path = tmp_path / "mine.dat"
+    path.write_text(content)
+    match = link_file("fmr3", path, **arguments)
+    assert (match.name, match.status, match.path) == ("FMR3", "candidate", path)
+    assert match.reason.startswith(reason)
+    assert load_record("FMR3", scaled=False).pga == pytest.approx(match.pga_g * G, rel=1e-15)
+    assert load_record("FMR3").source.startswith("the user's own FMR3: mine.dat (")
+    assert set(links()) == {"FMR3"}
+
+
+def test_a_file_that_speaks_against_its_name_is_linked_with_a_warning(tmp_path):
+    path = tmp_path / "x.AT2"
+    path.write_text(at2("KOBE 01/16/95", "KAKOGAWA", "090", 0.345))
+    with pytest.warns(
+        UserWarning, match=r"does not look like FMR3, of Chi-Chi 1999: it says KOBE 01/16/95 KAK"
+    ):
+        link_file("FMR3", path)
+    assert "KOBE 01/16/95" in load_record("FMR3").source
+
+
+def test_what_cannot_be_read_is_not_linked(tmp_path):
+    path = tmp_path / "two.txt"
+    path.write_text("0 0.1 0.2\n0.01 0.3 0.4\n0.02 0.5 0.6\n")
+    for arguments, problem in (
+        ({}, "does not say the unit"),
+        ({"units": "g"}, "has 2 channels: give channel"),
+        ({"units": "g", "channel": "3"}, "there is no channel '3'"),
+    ):
+        with pytest.raises(RecordError, match=problem):
+            link_file("FMR3", path, **arguments)
+    with pytest.raises(RecordError, match="there is no record 'FMR9' in the catalogue"):
+        link_file("FMR9", path)
+    assert links() == {}
+
+
 def test_a_linked_file_that_went_or_changed_is_refused(folder):
     link_found(check_folder(folder))
     path = folder / "deeper" / "fsr1_file.AT2"
@@ -147,14 +198,15 @@ def test_a_linked_file_that_went_or_changed_is_refused(folder):
     with pytest.raises(RecordError, match=r"FSR1 is linked to .*fsr1_file\.AT2, which was changed since"):
         load_record("FSR1")
     path.unlink()
-    with pytest.raises(RecordError, match=r"which is not there: check its folder again or take FSR1 out of"):
+    with pytest.raises(RecordError, match=r"which is not there: link it again or give it up with"):
         load_record("FSR1")
 
 
 def test_odd_paths_survive_the_file_of_links(own_links):
     odd = own_links.parent / 'a "quoted" \\ name = [x].AT2'
-    save_links({"FSR1": Link(odd, 'ch "1"', "0" * 64)})
-    assert links()["FSR1"] == Link(odd, 'ch "1"', "0" * 64)
+    told = {"FSR1": Link(odd, 'ch "1"', "0" * 64), "FSR2": Link(odd, "", "1" * 64, "cm/s2", 0.005)}
+    save_links(told)
+    assert links() == told
 
 
 @pytest.mark.parametrize(

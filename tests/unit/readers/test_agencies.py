@@ -37,6 +37,9 @@ SAID = {
     "NSMN (Turkey)": (["N-S", "E-W", "U-D"], 0.01, "1999/01/02 12:00:00 (GMT)", "0001", "N-S", ""),
     "UNAM ASA": (["V", "N00E", "N90E"], 0.01, "1999/01/02 12:00:00 M=6.0", "MILL", "V", ""),
     "BHRC (Iran)": (["L1", "T2"], 0.01, "1999/01/02 12:00:00", "Old Mill", "L1", ""),
+    "columns of fdspec": (
+        ["090"], 0.01, "Nowhere 1999-01-02", "Old Mill", "090", "Accelerogram bandpass filtered",
+    ),
     "columns of text": (["Accel"], 0.01, "The Nowhere earthquake", "MILL", "", ""),
 }  # fmt: skip
 
@@ -85,6 +88,7 @@ COUNTS = {
     "NSMN (Turkey)": "NUMBER OF DATA          : 23",
     "BHRC (Iran)": "NO. OF POINTS =     23",
     "UNAM ASA": "NUM. TOTAL DE MUESTRAS, C1-C6          : /23/23/23",
+    "columns of fdspec": "Samples: 23",
 }
 
 
@@ -332,6 +336,22 @@ DAMAGED_HEADERS = [
     ("UNAM ASA", "3F10.4", "6F10.4", "expected FORMATO DATOS: 3F10.4"),
     ("BHRC (Iran)", "AND G/10", "AND G", "expected 'UNITS ARE SECONDS AND G/10'"),
     ("BHRC (Iran)", "\n/&", "\nand", "expected the end of data"),
+    ("columns of fdspec", "Time step: 0.01", "Time step: 0", "expected a positive number behind 'Time step'"),
+    ("columns of fdspec", "Time step: 0.01", "Time step: 0.02", "expected equal time steps of about 0.02 s"),
+    (
+        "columns of fdspec",
+        "Scale factor: 0.5",
+        "Scale factor: half",
+        "expected a number behind 'Scale factor'",
+    ),
+    (
+        "columns of fdspec",
+        "Done: scaled",
+        "scaled",
+        "expected 'Key: value' or 'time, s; acceleration, m/s2', found",
+    ),
+    ("columns of fdspec", "time, s; accel", "time: accel", "expected 'Key: value' or"),
+    ("columns of fdspec", "0.01\t", "0.01 0 ", "expected a time and an acceleration, found '0.01 0 "),
 ]
 
 
@@ -346,6 +366,7 @@ def test_a_damaged_header_is_refused_with_what_was_expected(record_file, name, o
 @pytest.mark.filterwarnings("ignore")
 def test_miniseed_with_a_gap_is_refused(record_file):
     """Two traces of one channel are no motion."""
+    pytest.importorskip("obspy", reason="obspy is in the extra miniseed")
     content = samples.miniseed()
     with pytest.raises(RecordError, match=r"channel XX\.MILL\.\.HNE has a gap or an overlap"):
         read_record(record_file(content + content, "gap.mseed"), units="gal")
