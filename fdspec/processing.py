@@ -17,6 +17,10 @@ MAX_DENOMINATOR = 1000
 """Resampling by a ratio of whole numbers needs a filter as long as the larger of them."""
 
 
+MAX_PADDING = 10_000_000
+"""Samples; a day at 100 Hz. More is a slip of the finger, and may not fit the memory."""
+
+
 def trimmed(motion: GroundMotion, start: float = 0.0, end: float | None = None) -> GroundMotion:
     """Return the samples from time `start` to `end`, s, both included; times count from 0 again."""
     start = finite_number("start", start)
@@ -46,6 +50,8 @@ def padded(motion: GroundMotion, before: float = 0.0, after: float = 0.0) -> Gro
     for argument, seconds in (("before", before), ("after", after)):
         if finite_number(argument, seconds) < 0.0:
             raise InvalidInput(f"{argument} must be 0 s or more, not {seconds!r}")
+        if seconds > MAX_PADDING * motion.dt:
+            raise InvalidInput(f"{argument} must be at most {MAX_PADDING * motion.dt:g} s, not {seconds!r}")
         counts.append(round(seconds / motion.dt))
     return _changed(
         motion,
@@ -66,7 +72,7 @@ def resampled(motion: GroundMotion, dt: float) -> GroundMotion:
     ratio = Fraction(motion.dt / dt).limit_denominator(MAX_DENOMINATOR)
     if ratio == 0 or ratio.numerator > MAX_DENOMINATOR or abs(float(ratio) * dt / motion.dt - 1.0) > 1e-9:
         raise InvalidInput(
-            f"dt must be to {motion.dt!r} s as whole numbers up to {MAX_DENOMINATOR}, not {dt!r}"
+            f"dt must stand to {motion.dt!r} s as two whole numbers up to {MAX_DENOMINATOR}, not {dt!r}"
         )
     samples = resample_poly(motion.acceleration, ratio.numerator, ratio.denominator)
     changed = _changed(motion, samples, f"resampled from {motion.dt:g} to {dt:g} s")

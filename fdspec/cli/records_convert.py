@@ -25,6 +25,13 @@ if TYPE_CHECKING:
 @file_options
 @click.option("--raw", is_flag=True, help="A catalogue's record as recorded, not scaled to the study's PGA.")
 @click.option("--trim", type=float, nargs=2, metavar="S S", help="Keep from one time to another, s.")
+@click.option(
+    "--trim-arias",
+    type=float,
+    nargs=2,
+    metavar="X X",
+    help="Keep from one share of the Arias intensity to another.",
+)
 @click.option("--baseline", type=int, metavar="ORDER", help="Take out a polynomial that fits the velocity.")
 @click.option("--band-pass", type=float, nargs=2, metavar="HZ HZ", help="Butterworth of order 4, no delay.")
 @click.option("--resample", type=float, metavar="S", help="Another time step, s.")
@@ -41,6 +48,7 @@ def convert_record(
     channel: str | None,
     raw: bool,
     trim: tuple[float, float] | None,
+    trim_arias: tuple[float, float] | None,
     baseline: int | None,
     band_pass: tuple[float, float] | None,
     resample: float | None,
@@ -71,6 +79,8 @@ def convert_record(
     motion = find_record(named, scaled=not raw)
     if trim is not None:
         motion = processing.trimmed(motion, *trim)
+    if trim_arias is not None:
+        motion = processing.trimmed_by_arias(motion, *trim_arias)
     if baseline is not None:
         motion = processing.baseline_corrected(motion, baseline)
     if band_pass is not None:

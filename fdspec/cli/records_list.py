@@ -60,7 +60,7 @@ def _of_study(entry: CatalogueEntry) -> tuple[str, ...]:
 
 def _loaded(entry: CatalogueEntry, link: Link | None) -> tuple[str, str, str]:
     """Return what is loaded, its site class and its factor; a linked file that cannot be has neither."""
-    from fdspec.errors import RecordError
+    from fdspec.errors import FdspecError
     from fdspec.records import load_record
 
     if link is None:
@@ -69,6 +69,6 @@ def _loaded(entry: CatalogueEntry, link: Link | None) -> tuple[str, str, str]:
         return f"{stand_in.station} {stand_in.component}", stand_in.site_class, f"{factor:.3f}"
     try:
         factor = load_record(entry.name).scale_factor
-    except RecordError:
+    except FdspecError:
         return f"own: {link.path.name}, refused", "", ""
     return f"own: {link.path.name}", "", f"{factor:.3f}"

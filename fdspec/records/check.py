@@ -189,7 +189,7 @@ def link_file(
     Raises
     ------
     RecordError
-        When the name is unknown or the file cannot be read.
+        When the name is unknown, or the file cannot be read or is zero throughout.
 
     Warns
     -----
@@ -201,6 +201,8 @@ def link_file(
     if channel is None and len(channels) == 1:
         channel = channels[0]
     motion = read_record(path, channel=channel, units=units, dt=dt)  # refused while it is unclear which
+    if motion.pga == 0.0:
+        raise RecordError(f"{path}: is zero throughout: no factor gives it the PGA of {entry.name}")
     judged = _judge(entry, Path(path), motion)
     if judged is None:
         pga = f"PGA {motion.pga / G:.4f} g, the study's is {entry.pga_g:.3f}"

@@ -287,6 +287,8 @@ def test_link_fails_when_nothing_was_found(own: Path, capsys: pytest.CaptureFixt
         (["convert", "FMR1", "-o", "new.at2", "--pga", "1", "--factor", "2"], "one of --factor, --pga and"),
         (["convert", "FMR1", "-o", "new.at2", "--pga-g", "-1"], "pga must be positive"),
         (["convert", "FMR1", "-o", "new.at2", "--trim", "5", "1"], "end"),
+        (["convert", "FMR1", "-o", "new.at2", "--trim-arias", "0.9", "0.1"], "0 <= start < end <= 1"),
+        (["convert", "FMR1", "-o", "new.at2", "--pad", "1e300", "0"], "before must be at most 100000 s"),
         (["convert", "none.AT2", "-o", "new.at2"], "none.AT2: there is no such file"),
         (["show", "FSR1,FSR2"], "there is no record 'FSR1,FSR2' in the catalogue"),
         (["show", ""], "A record has a name or is a file: give one"),
@@ -350,12 +352,13 @@ def test_convert_takes_one_channel_of_several(tmp_path: Path, capsys: pytest.Cap
 
 def test_convert_takes_its_steps_in_one_order(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     steps = ["--pga-g", "0.5", "--pad", "1", "2", "--resample", "0.02", "--band-pass", "0.1", "20"]
-    steps += ["--baseline", "1", "--trim", "2", "12"]
+    steps += ["--baseline", "1", "--trim-arias", "0.01", "0.99", "--trim", "2", "12"]
     path = tmp_path / "new.txt"
     head, *told = output(capsys, "convert", "FMR1", *steps, "-o", str(path)).splitlines()
     assert head.endswith("samples, dt 0.02 s, PGA 0.5 g")
     assert [step.split()[0] for step in told] == [
         "scaled",  # to the study's PGA
+        "trimmed",
         "trimmed",
         "baseline",
         "band-passed",
@@ -364,6 +367,7 @@ def test_convert_takes_its_steps_in_one_order(tmp_path: Path, capsys: pytest.Cap
         "scaled",
     ]
     motion = read_record(path)
+    assert [f"  {step}" for step in motion.history] == told
     assert motion.pga == pytest.approx(0.5 * G, rel=1e-15)
     assert not motion.acceleration[:50].any()
     assert motion.acceleration[51:-100].any()

@@ -65,6 +65,8 @@ def test_padded():
     assert padded(GroundMotion([1.0, 2.0], 0.1), 0.2, 0.1).acceleration.tolist() == [0.0, 0.0, 1.0, 2.0, 0.0]
     with pytest.raises(InvalidInput, match="before must be 0 s or more, not -1"):
         padded(COUNT, -1)
+    with pytest.raises(InvalidInput, match=r"after must be at most 1e\+06 s, not 1e\+300"):
+        padded(COUNT, after=1e300)
 
 
 @pytest.mark.parametrize("dt", [0.0025, 0.01, 0.02, 0.0075])
@@ -84,7 +86,7 @@ def test_resampled_takes_out_what_the_new_step_cannot_carry():
 
 def test_resampling_to_an_odd_step_is_refused():
     with pytest.raises(
-        InvalidInput, match="dt must be to 0.005 s as whole numbers up to 1000, not 0.00314159"
+        InvalidInput, match="dt must stand to 0.005 s as two whole numbers up to 1000, not 0.00314159"
     ):
         resampled(sine(1.0), 0.00314159)
     with pytest.raises(InvalidInput, match="dt must be positive"):

@@ -186,6 +186,9 @@ def test_what_cannot_be_read_is_not_linked(tmp_path):
     ):
         with pytest.raises(RecordError, match=problem):
             link_file("FMR3", path, **arguments)
+    (tmp_path / "still.txt").write_text("0\n0\n0\n")
+    with pytest.raises(RecordError, match="zero throughout: no factor gives it the PGA of FMR3"):
+        link_file("FMR3", tmp_path / "still.txt", units="g", dt=0.01)
     with pytest.raises(RecordError, match="there is no record 'FMR9' in the catalogue"):
         link_file("FMR9", path)
     assert links() == {}
