@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from fdspec.building import Building
 from fdspec.course import Course, FloatArray, Span
 from fdspec.errors import IntegrationError, InvalidInput
+from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.motion import GroundMotion
 from fdspec.store import provenance
 from fdspec.variables import HISTORY, STATUSES, describe
@@ -24,12 +25,13 @@ def simulate(
     building: Building,
     motion: GroundMotion,
     *,
+    method: str | Method = EXACT,
     dt_out: float | None = None,
     free_vibration: float = 0.0,
     initial_displacement: ArrayLike | None = None,
     initial_velocity: ArrayLike | None = None,
 ) -> xr.Dataset:
-    """Integrate one history exactly, event by event, and return its course in time.
+    """Integrate one history exactly, event by event, or by another method; return its course in time.
 
     Parameters
     ----------
@@ -37,6 +39,9 @@ def simulate(
         The frame or building, at rest unless said otherwise.
     motion : GroundMotion
         Ground acceleration, linear between its samples.
+    method : str or Method
+        "exact", or one of the methods that the study compares, by name (`fdspec.methods.METHODS`) or with
+        parameters of its own, as ``Newmark(dt=1e-5)``.
     dt_out : float, s, optional
         Time between outputs, the motion's own unless given.  It is not a step size: no peak and no
         instant of change depends on it.
@@ -83,17 +88,24 @@ def simulate(
             _initial("initial_velocity", initial_velocity, building),
         ]
     )
-    if building.n_storeys == 1:
-        from fdspec.single_storey import integrate_single_storey as integrate
+    other = chosen_method(method)
+    if other is not None:
+        course = other.integrate(building, motion, span, start)
+    elif building.n_storeys == 1:
+        from fdspec.single_storey import integrate_single_storey
+
+        course = integrate_single_storey(building, motion, span, start)
     else:
-        from fdspec.many_storeys import integrate_many_storeys as integrate
-    course = integrate(building, motion, span, start)
+        from fdspec.many_storeys import integrate_many_storeys
+
+        course = integrate_many_storeys(building, motion, span, start)
     if course.status != 0:
         raise IntegrationError(
             f"the history of {building!r} under {motion.name or 'the motion'} ended with status "
             f"{STATUSES[course.status]} after {course.transition_time.size} changes of phase"
         )
-    return _dataset(building, motion, span, start, course)
+    solved = building if other is None else other.model(building)
+    return _dataset(solved, motion, span, start, course, {} if other is None else other.parameters)
 
 
 def _span(motion: GroundMotion, dt_out: object, free_vibration: object) -> Span:
@@ -132,7 +144,12 @@ def _initial(name: str, given: ArrayLike | None, building: Building) -> FloatArr
 
 
 def _dataset(
-    building: Building, motion: GroundMotion, span: Span, start: FloatArray, course: Course
+    building: Building,
+    motion: GroundMotion,
+    span: Span,
+    start: FloatArray,
+    course: Course,
+    method: dict[str, object],
 ) -> xr.Dataset:
     time = np.arange(span.outputs) * span.dt_out
     below = np.zeros_like(course.displacement)
@@ -217,6 +234,7 @@ def _dataset(
             "free_steps": span.free_steps,
             "initial_displacement": start[0],
             "initial_velocity": start[1],
+            **method,
         },
         (motion,),
         command="fdspec.simulate",

@@ -11,8 +11,11 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from fdspec.cube import assemble, chosen, named
+from fdspec.errors import InvalidInput
 from fdspec.fanout import Task, cores, fan_out, plan
 from fdspec.grid import Grid
+from fdspec.method_columns import integrate_by_method
+from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.motion import GroundMotion
 from fdspec.variables import CUBE, STUDY_DIMS
 
@@ -33,6 +36,7 @@ ON_REQUEST: Final = (*STRAIN, *BARE_STRAIN)
 def sweep(
     motions: GroundMotion | Sequence[GroundMotion],
     *,
+    method: str | Method = EXACT,
     period: ArrayLike,
     pretension: ArrayLike,
     stiffness_ratio: ArrayLike,
@@ -59,6 +63,9 @@ def sweep(
     ----------
     motions : GroundMotion or sequence of them
         Named differently; their names become the ``record`` coordinate.
+    method : str or Method
+        "exact", or one of the methods that the study compares, as for `fdspec.simulate`; the limits that
+        ride along are exact in any case.
     period, pretension, stiffness_ratio : array_like
         Axes in s, N and 1, strictly increasing; see `fdspec.grid.Grid`.
     floor_mass, brace_mass : float, kg
@@ -112,12 +119,15 @@ def sweep(
     motions = named(motions)
     wanted = chosen(OUTPUTS if outputs is None else outputs, (*OUTPUTS, *ON_REQUEST), certify)
     strain = bool(set(ON_REQUEST) & set(wanted))
+    other = chosen_method(method)
+    if strain and other is not None:
+        raise InvalidInput(f"outputs {', '.join(ON_REQUEST)} need method 'exact', got {other.name!r}")
     n_sr, n_f, n_t = grid.shape
     seconds = [_core_seconds(motion.n, grid, certify) for motion in motions]
     tasks = plan(n_sr * n_t, seconds, columns_per_task, "columns_per_task")
     energy = certify or bool({"input_energy", "energy_error"} & set(wanted))
     parts = fan_out(
-        partial(_run_columns, grid, energy, certify, strain),
+        partial(_run_columns, grid, energy, certify, strain, other),
         motions,
         tasks,
         each=n_f,
@@ -139,7 +149,12 @@ def sweep(
         CUBE,
         motions,
         title="Peak response of single-storey frames with friction dampers",
-        parameters={**parameters, "certify": certify, "outputs": list(wanted)},
+        parameters={
+            **parameters,
+            **({} if other is None else other.parameters),
+            "certify": certify,
+            "outputs": list(wanted),
+        },
         command="fdspec.sweep",
     )
 
@@ -173,7 +188,13 @@ def _frames(grid: Grid, columns: NDArray[np.int64]) -> FloatArray:
 
 
 def _run_columns(
-    grid: Grid, energy: bool, certify: bool, strain: bool, columns: NDArray[np.int64], motion: GroundMotion
+    grid: Grid,
+    energy: bool,
+    certify: bool,
+    strain: bool,
+    other: Method | None,
+    columns: NDArray[np.int64],
+    motion: GroundMotion,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Integrate some (stiffness ratio, period) pairs: all pretensions, never slipping, without brace.
 
@@ -182,9 +203,13 @@ def _run_columns(
     from fdspec.columns import integrate_columns
 
     frames = _frames(grid, columns)
+    exact = slice(None) if other is None else slice(0)
+    slip_force, kinetic = grid.slip_force, grid.kinetic_slip_force
     braced, results = integrate_columns(
-        frames, grid.slip_force, grid.kinetic_slip_force, motion, energy=energy, certify=certify
+        frames, slip_force[exact], kinetic[exact], motion, energy=energy, certify=certify
     )
+    if other is not None:
+        results = integrate_by_method(other, frames, slip_force, kinetic, motion)
     bare = frames[columns < grid.period.size].copy()  # the first stiffness ratio's pairs stand for all
     bare[:, 3:] = 0.0
     free, _ = integrate_columns(bare, np.empty(0), np.empty(0), motion, energy=False, certify=False)

@@ -69,8 +69,10 @@ def _flags(codes: Mapping[int, str]) -> dict[str, object]:
 PHASES: Final = MappingProxyType({-1: "slip_backward", 0: "stick", 1: "slip_forward"})
 """Phase code -> meaning; forward is a floor that moves faster than its brace."""
 
-STATUSES: Final = MappingProxyType({0: "ok", 1: "transition_cap_reached", 2: "non_finite_state"})
-"""Status code -> meaning, as the kernels return them."""
+STATUSES: Final = MappingProxyType(
+    {0: "ok", 1: "transition_cap_reached", 2: "non_finite_state", 3: "iteration_not_converged"}
+)
+"""Status code -> meaning, as the kernels return them; the last comes from methods that iterate alone."""
 
 
 def motion_variables(dims: tuple[str, ...]) -> tuple[Variable, ...]:
