@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from functools import partial
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import xarray as xr
@@ -24,13 +24,30 @@ FloatArray = NDArray[np.float64]
 SECONDS_PER_SAMPLE: Final = 12e-9
 """Core time of one history for each sample of its record, roughly; for plans, not for results."""
 
-LIMITS: Final = ("elastic_acceleration", "braced_acceleration")
-RESPONSES: Final = tuple(v.name for v in CUBE.values() if v.dims == STUDY_DIMS and not v.on_request)
-OUTPUTS: Final = (*RESPONSES, *LIMITS)
+BARE: Final = {
+    "elastic_acceleration": "peak_acceleration",
+    "bare_peak_displacement": "peak_displacement",
+    "bare_peak_base_shear": "peak_base_shear",
+    "bare_strain_energy_area": "strain_energy_area",
+    "bare_peak_strain_energy": "peak_strain_energy",
+}
+"""Output over (record, period) -> what it is of the frame without brace."""
+
+BRACED: Final = {
+    "braced_acceleration": "peak_acceleration",
+    "braced_peak_displacement": "peak_displacement",
+    "braced_peak_base_shear": "peak_base_shear",
+}
+"""Output over (record, stiffness_ratio, period) -> what it is where the damper never slips."""
+
 STRAIN: Final = ("strain_energy_area", "peak_strain_energy")
-BARE_STRAIN: Final = ("bare_strain_energy_area", "bare_peak_strain_energy")
-ON_REQUEST: Final = (*STRAIN, *BARE_STRAIN)
-"""Outputs that take a pass of their own over the histories, and so are computed only where named."""
+"""Results of a pass of their own over every history."""
+
+RESPONSES: Final = tuple(v.name for v in CUBE.values() if v.dims == STUDY_DIMS)
+_KNOWN: Final = (*RESPONSES, *BARE, *BRACED)
+OUTPUTS: Final = tuple(name for name in _KNOWN if not CUBE[name].on_request)
+ON_REQUEST: Final = tuple(name for name in _KNOWN if CUBE[name].on_request)
+"""Outputs that are computed only where they are named."""
 
 
 def sweep(
@@ -75,7 +92,7 @@ def sweep(
     friction_coefficient, kinetic_friction_coefficient, normal_force_factor : float
         Slip force = friction_coefficient * normal_force_factor * pretension.
     outputs : iterable of str, optional
-        Variables of the cube; unless given, all but those of `ON_REQUEST`, the strain energies.
+        Variables of the cube; unless given, all but those of `ON_REQUEST`.
     certify : bool
         Whether to compute ``energy_error``; without it the sweep is faster.
     workers : int, optional
@@ -118,16 +135,16 @@ def sweep(
     )
     motions = named(motions)
     wanted = chosen(OUTPUTS if outputs is None else outputs, (*OUTPUTS, *ON_REQUEST), certify)
-    strain = bool(set(ON_REQUEST) & set(wanted))
+    strain = [name for name in wanted if BARE.get(name, name) in STRAIN]
     other = chosen_method(method)
     if strain and other is not None:
-        raise InvalidInput(f"outputs {', '.join(ON_REQUEST)} need method 'exact', got {other.name!r}")
+        raise InvalidInput(f"outputs {', '.join(strain)} need method 'exact', got {other.name!r}")
     n_sr, n_f, n_t = grid.shape
     seconds = [_core_seconds(motion.n, grid, certify) for motion in motions]
     tasks = plan(n_sr * n_t, seconds, columns_per_task, "columns_per_task")
     energy = certify or bool({"input_energy", "energy_error"} & set(wanted))
     parts = fan_out(
-        partial(_run_columns, grid, energy, certify, strain, other),
+        partial(_run_columns, grid, energy, certify, bool(strain), other),
         motions,
         tasks,
         each=n_f,
@@ -198,7 +215,7 @@ def _run_columns(
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Integrate some (stiffness ratio, period) pairs: all pretensions, never slipping, without brace.
 
-    Results in the order of RESULTS, then of STRAIN; those without brace: acceleration, then BARE_STRAIN.
+    Each in the order of RESULTS; where wanted, those of STRAIN follow, save of braced frames.
     """
     from fdspec.columns import integrate_columns
 
@@ -213,7 +230,6 @@ def _run_columns(
     bare = frames[columns < grid.period.size].copy()  # the first stiffness ratio's pairs stand for all
     bare[:, 3:] = 0.0
     free, _ = integrate_columns(bare, np.empty(0), np.empty(0), motion, energy=False, certify=False)
-    free = free[:, :1]
     if strain:
         from fdspec.strain import strain_of_columns
 
@@ -221,7 +237,7 @@ def _run_columns(
         added = strain_of_columns(frames, grid.slip_force, grid.kinetic_slip_force, motion)
         results = np.concatenate([results, added], axis=-1)
         free = np.concatenate([free, strain_of_columns(bare, *never, motion)[:, 0]], axis=-1)
-    return results, braced[:, 0], free
+    return results, braced, free
 
 
 def _variables(
@@ -230,24 +246,23 @@ def _variables(
     tasks: Sequence[Task],
     parts: Sequence[tuple[FloatArray, FloatArray, FloatArray]],
     wanted: Sequence[str],
-) -> dict[str, NDArray[np.generic]]:
+) -> dict[str, NDArray[Any]]:
     """Put what the tasks returned where it stands in the cube."""
     from fdspec.kernels.sdof import RESULTS
 
     rows = (*RESULTS, *STRAIN)
     n_sr, n_f, n_t = grid.shape
-    responses: dict[str, NDArray[np.generic]] = {
+    responses: dict[str, NDArray[Any]] = {
         name: np.empty((n_r, n_sr, n_f, n_t), dtype=CUBE[name].dtype) for name in wanted if name in rows
     }
-    bare = ("elastic_acceleration", *BARE_STRAIN)
-    limits = {name: np.empty((n_r, n_t)) for name in bare if name in wanted}
-    limits["braced_acceleration"] = np.empty((n_r, n_sr, n_t))
-    for (r, columns), (out, braced, free) in zip(tasks, parts, strict=True):
+    bare: dict[str, NDArray[Any]] = {name: np.empty((n_r, n_t)) for name in wanted if name in BARE}
+    braced: dict[str, NDArray[Any]] = {name: np.empty((n_r, n_sr, n_t)) for name in wanted if name in BRACED}
+    for (r, columns), (out, held, free) in zip(tasks, parts, strict=True):
         ratio, period = np.unravel_index(columns, (n_sr, n_t))
         for name, values in responses.items():
             values[r, ratio, :, period] = out[:, :, rows.index(name)]
-        limits["braced_acceleration"][r, ratio, period] = braced
-        for row, name in enumerate(bare):
-            if name in limits:
-                limits[name][r, columns[columns < n_t]] = free[:, row]
-    return responses | {name: limits[name] for name in wanted if name in limits}
+        for name, values in braced.items():
+            values[r, ratio, period] = held[:, rows.index(BRACED[name])]
+        for name, values in bare.items():
+            values[r, columns[columns < n_t]] = free[:, rows.index(BARE[name])]
+    return responses | bare | braced

@@ -118,16 +118,24 @@ def response_variables(grid: tuple[str, ...], storey: tuple[str, ...] = ()) -> t
     )
 
 
-def _strain_variables() -> tuple[Variable, ...]:
-    """Return what Filiatrault and Cherry's index is made of: a pass of its own over every history."""
-    bare = ("record", "period")
+def _variables_of_indices() -> tuple[Variable, ...]:
+    """Return what performance indices need beside the responses, the bare frame's share included."""
+    bare, braced = ("record", "period"), ("record", "stiffness_ratio", "period")
     area, peak = "area under the history of elastic energy in", "peak elastic energy in"
-    return (
-        Variable("strain_energy_area", STUDY_DIMS, "J s", f"{area} frame and brace", on_request=True),
-        Variable("peak_strain_energy", STUDY_DIMS, "J", f"{peak} frame and brace", on_request=True),
-        Variable("bare_strain_energy_area", bare, "J s", f"{area} the frame without brace", on_request=True),
-        Variable("bare_peak_strain_energy", bare, "J", f"{peak} the frame without brace", on_request=True),
+    displacement = "peak displacement of the floor relative to the ground"
+    shear = "peak shear force on the ground"
+    never, without = "with a damper that never slips", "of the frame without brace"
+    asked = (
+        ("strain_energy_area", STUDY_DIMS, "J s", f"{area} frame and brace"),
+        ("peak_strain_energy", STUDY_DIMS, "J", f"{peak} frame and brace"),
+        ("bare_peak_displacement", bare, "m", f"{displacement}, {without}"),
+        ("bare_peak_base_shear", bare, "N", f"{shear}, {without}"),
+        ("bare_strain_energy_area", bare, "J s", f"{area} the frame without brace"),
+        ("bare_peak_strain_energy", bare, "J", f"{peak} the frame without brace"),
+        ("braced_peak_displacement", braced, "m", f"{displacement}, {never}"),
+        ("braced_peak_base_shear", braced, "N", f"{shear}, {never}"),
     )
+    return tuple(Variable(name, dims, units, text, on_request=True) for name, dims, units, text in asked)
 
 
 CUBE: Final[Registry] = registry_of(
@@ -156,7 +164,7 @@ CUBE: Final[Registry] = registry_of(
             "peak absolute acceleration of the floor with a damper that never slips",
         ),
     ),
-    _strain_variables(),
+    _variables_of_indices(),
 )
 """The variables of a sweep over single-storey frames, dims (record, stiffness_ratio, pretension, period)."""
 

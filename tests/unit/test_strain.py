@@ -11,7 +11,7 @@ from fdspec.building import Building
 from fdspec.damping import ModalDamping
 from fdspec.motion import GroundMotion
 from fdspec.strain import strain_of_frame, strain_of_storeys
-from fdspec.sweep import BARE_STRAIN, ON_REQUEST, OUTPUTS, STRAIN
+from fdspec.sweep import ON_REQUEST, OUTPUTS, STRAIN
 from tests.cells import Cell, draw
 
 FINE = 512
@@ -98,13 +98,21 @@ def test_room_for_changes_of_phase_grows(motion: GroundMotion, monkeypatch: pyte
 
 def test_a_sweep_gives_it_on_request(motion: GroundMotion) -> None:
     axes = {"period": [0.3, 0.5], "pretension": [0.0, 60e3, np.inf], "stiffness_ratio": [2, 4]}
-    cube = fdspec.sweep(motion, **axes, outputs=ON_REQUEST, columns_per_task=3)
-    assert set(cube.data_vars) == {*ON_REQUEST, "status"}
+    asked = (*ON_REQUEST, "peak_displacement", "peak_base_shear")
+    cube = fdspec.sweep(motion, **axes, outputs=asked, columns_per_task=3)
+    assert set(cube.data_vars) == {*asked, "status"}
     for period in axes["period"]:
-        for name, row in zip(BARE_STRAIN, (0, 1), strict=True):
-            bare = Building.single_storey(period, 0.0, 0.0, brace_mass=0.0)
-            got = cube[name].sel(period=period).item()
-            assert got == pytest.approx(strain_of_frame(bare.frame, motion)[row], rel=1e-12)
+        bare = fdspec.Building.single_storey(period, 0.0, 0.0, brace_mass=0.0)
+        area, peak = strain_of_frame(bare.frame, motion)[:2]
+        at = cube.sel(period=period)
+        assert at["bare_strain_energy_area"].item() == pytest.approx(area, rel=1e-12)
+        assert at["bare_peak_strain_energy"].item() == pytest.approx(peak, rel=1e-12)
+        history = fdspec.simulate(bare, motion)
+        for name in ("peak_displacement", "peak_base_shear"):
+            assert at[f"bare_{name}"].item() == pytest.approx(history[name].item(), rel=1e-12)
+        never = at.sel(pretension=np.inf)
+        for name in ("peak_displacement", "peak_base_shear"):
+            assert np.array_equal(at[f"braced_{name}"], never[name])
     building = Building.single_storey(0.5, 4.0, 30e3)
     cell = cube.sel(period=0.5, stiffness_ratio=4, pretension=60e3, record="start")
     assert [cell[name].item() for name in STRAIN] == pytest.approx(
