@@ -1,6 +1,29 @@
-"""Measures of a cube: what an engineer reads off it, Dataset -> Dataset."""
+"""Measures of a cube: what an engineer reads off it, Dataset -> Dataset.
+
+What has to run the engine again, such as a pretension between those of the grid, is in `fdspec.choice`.
+"""
 
 from fdspec.measures.claims import study_claims
 from fdspec.measures.damper import best_damper
+from fdspec.measures.ensemble import STATISTICS, best_for_all, ensemble
+from fdspec.measures.grid_best import best_on_grid
+from fdspec.measures.indices import INDICES, index_of, indices, needs_of
+from fdspec.measures.reduction import reduction
+from fdspec.measures.residual import residual
+from fdspec.measures.slip_load import slip_load_spectrum
 
-__all__ = ["best_damper", "study_claims"]
+__all__ = [
+    "INDICES",
+    "STATISTICS",
+    "best_damper",
+    "best_for_all",
+    "best_on_grid",
+    "ensemble",
+    "index_of",
+    "indices",
+    "needs_of",
+    "reduction",
+    "residual",
+    "slip_load_spectrum",
+    "study_claims",
+]
