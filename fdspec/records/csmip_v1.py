@@ -1,4 +1,8 @@
-"""CSMIP V1, as RENADIC still writes it: uncorrected acceleration in g/10, in pairs of time and value."""
+"""CSMIP (CGS, CDMG) V1: uncorrected acceleration, a channel a block.
+
+CGS writes values at equal steps below a line with their rate and unit. Older files, and RENADIC still, have
+pairs of time and value in g/10.
+"""
 
 from __future__ import annotations
 
@@ -6,11 +10,12 @@ import re
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fdspec.records.channel import Channel
 from fdspec.records.numbers import parse_columns
 from fdspec.records.textfile import TextFile
-from fdspec.records.units import to_si
+from fdspec.records.units import UNITS, to_si
 
 NAME: Final = "CSMIP V1"
 TEXT_LINES: Final = 13
@@ -20,9 +25,14 @@ WIDTH: Final = 7
 
 _TITLE: Final = re.compile(r"\s*UNCORRECTED ACCELEROGRAM DATA\s+PROCESSED", re.IGNORECASE)
 _POINTS: Final = re.compile(
-    r"NO\. OF POINTS\s*=\s*(\d{1,9})\s+RECORD LENGTH\s*=\s*([\d.]{1,12})\s*SEC", re.IGNORECASE
+    r"NO\. OF POINTS\s*=\s*(\d{1,9})\s+RECORD LENGTH\s*=\s*(\d{1,6}\.?\d{0,6}|\.\d{1,6})\s*SEC", re.IGNORECASE
 )
 _UNITS: Final = re.compile(r"UNITS.*\bG/10\b", re.IGNORECASE)
+_EVEN: Final = re.compile(
+    r"\s*(\d{1,9}) accelerogram points at\s+(\d{1,6}(?:\.\d{1,6})?) pts/sec in units of (\S+?)\s*\.?\s+"
+    r"Format:\s*\(\s*(\d{1,2})F(\d{1,2})\.\d+\)",
+    re.IGNORECASE,
+)
 
 
 def recognises(text: TextFile) -> bool:
@@ -48,11 +58,57 @@ def _read_block(text: TextFile, first: int) -> tuple[Channel, int]:
     points = _POINTS.search(text.line(first + 10, "the number of points"))
     if points is None:
         raise text.refusal(first + 10, "expected 'NO. OF POINTS = n  RECORD LENGTH = t SEC'")
-    if _UNITS.search(text.line(first + 11, "the units")) is None:
-        raise text.refusal(first + 11, "expected 'UNITS OF UNCOR ACCEL ARE SEC AND G/10'")
-    count = int(points[1])
+    count, length = int(points[1]), float(points[2])
     if count < 2:
         raise text.refusal(first + 10, f"expected at least 2 points, found {count}")
+    start = first + HEADER_LINES
+    even = _EVEN.match(text.line(start, f"the first of {count} points"))
+    if even is None:
+        acceleration, dt, unit, last = _pairs(text, first, count)
+    else:
+        acceleration, dt, unit, last = _values(text, start, even, count, length)
+    end = text.line(last + 1, "the end of data")
+    if "end of data" not in end.lower():
+        raise text.refusal(last + 1, f"expected the end of data, found {end.strip()[:60]!r}")
+    lines = [line.strip() for line in text.lines[first - 1 : first + TEXT_LINES]]
+    direction = re.sub(r"^CHAN\s*\w+:\s*|\s*\(.*$", "", lines[6], flags=re.IGNORECASE)
+    event = re.sub(r"^(Rcrd|Record) of\s+", "", lines[2 if even is None else 1].split("(")[0])
+    channel = Channel(
+        name=direction,
+        acceleration=acceleration,
+        dt=dt,
+        units=unit,
+        event=" ".join(event.split()),
+        station=re.split(r"\s{3,}", lines[5])[0],
+        component=direction,
+    )
+    return channel, last + 2
+
+
+def _values(
+    text: TextFile, heading: int, even: re.Match[str], count: int, length: float
+) -> tuple[NDArray[np.float64], float, str, int]:
+    """Read values at equal steps; return them in m/s2, with step, unit and last line."""
+    if int(even[1]) != count:
+        raise text.refusal(heading, f"expected {count} points, as the header says, found {even[1]}")
+    unit = UNITS.get(even[3].lower())
+    if unit is None:
+        raise text.refusal(heading, f"expected units of g or cm/sec2, found {even[3]!r}")
+    rate, a_line, width = float(even[2]), int(even[4]), int(even[5])
+    if rate <= 0.0 or a_line < 1 or width < 2:
+        raise text.refusal(
+            heading, f"expected a positive rate and a Fortran format, found {even[0].strip()!r}"
+        )
+    if abs(count / rate - length) > 0.01 * length + 2.0 / rate:
+        raise text.refusal(heading, f"{count} points at {rate:g} a second do not make {length:g} s")
+    last = heading + -(-count // a_line)
+    return to_si(parse_columns(text, heading + 1, last, width, count), unit), 1.0 / rate, unit, last
+
+
+def _pairs(text: TextFile, first: int, count: int) -> tuple[NDArray[np.float64], float, str, int]:
+    """Read pairs of time and value; return the values in m/s2, with step, unit and last line."""
+    if _UNITS.search(text.line(first + 11, "the units")) is None:
+        raise text.refusal(first + 11, "expected 'UNITS OF UNCOR ACCEL ARE SEC AND G/10'")
     start = first + HEADER_LINES
     last = start - 1 + -(-count // PAIRS_A_LINE)
     text.line(last, f"the last of {count} points")
@@ -63,18 +119,4 @@ def _read_block(text: TextFile, first: int) -> tuple[Channel, int]:
         0.0011, 0.4 * step
     ):
         raise text.refusal(start, "expected equal time steps in the pairs of time and acceleration")
-    end = text.line(last + 1, "the end of data")
-    if "end of data" not in end.lower():
-        raise text.refusal(last + 1, f"expected the end of data, found {end.strip()[:60]!r}")
-    lines = [line.strip() for line in text.lines[first - 1 : first + TEXT_LINES]]
-    direction = re.sub(r"^CHAN\s*\w+:\s*|\s*\(.*$", "", lines[6])
-    channel = Channel(
-        name=direction,
-        acceleration=to_si(pairs[:, 1] / 10.0, "g"),
-        dt=round(step, 6),
-        units="g",
-        event=" ".join(lines[2].split("(")[0].split()),
-        station=lines[5],
-        component=direction,
-    )
-    return channel, last + 2
+    return to_si(pairs[:, 1] / 10.0, "g"), round(step, 6), "g", last
