@@ -159,5 +159,6 @@ def _channel(text: TextFile, first: int, samples: NDArray[np.float64], dt: float
         event=" ".join(event.split()),
         station=" ".join(station[1].split()) if station else "",
         component=direction,
-        processing=(filtered,) if "filtered" in filtered and "not filtered" not in filtered else (),
+        # An unprocessed channel has the sentence without its numbers.
+        processing=(filtered,) if re.search(r"(?<!not )filtered\b.*\d", filtered) else (),
     )

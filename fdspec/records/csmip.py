@@ -1,4 +1,7 @@
-"""CSMIP (CDMG) V2: text, integers, reals, then acceleration, velocity and displacement, a channel a block."""
+"""CSMIP (CGS, CDMG) V2: text, integers, reals, then acceleration, velocity and displacement; a channel a block.
+
+Before the nineties the lines above the values gave their unit and no Fortran format, which was 8F10.3.
+"""
 
 from __future__ import annotations
 
@@ -18,10 +21,13 @@ STEP: Final = (
     52  # real header value 53: step of the corrected series, s, with more digits than the text shows
 )
 
+OLD_A_LINE, OLD_WIDTH = 8, 10
+
 _TITLE: Final = re.compile(r"Corrected accelerogram\s+\S+\s+Chan\s*\w+:", re.IGNORECASE)
 _DATA: Final = re.compile(
-    r"\s*(\d{1,9}) points of (accel|veloc|displ) data equally spaced at\s+([\d.]+) sec, in ([^\s(]+?)\.?\s*"
-    r"\(\s*(\d{1,2})f(\d{1,2})\.\d+\)",
+    r"\s*(\d{1,9}) points of (accel|veloc|displ) data equally spaced at\s+([\d.]+) sec"
+    r"(?:, in (?P<unit>[^\s(]+?)\.?\s*\(\s*(?P<a_line>\d{1,2})f(?P<width>\d{1,2})\.\d+\)"
+    r"|\.?\s*\(units:\s*(?P<old_unit>[^\s)]+?)\.?\s*\))",
     re.IGNORECASE,
 )
 
@@ -52,7 +58,8 @@ def _read_block(text: TextFile, first: int) -> tuple[Channel, int]:
         data = _DATA.match(text.line(line, f"the points of {quantity}"))
         if data is None or data[2].lower() != quantity:
             raise text.refusal(line, f"expected 'n points of {quantity} data equally spaced at t sec'")
-        count, a_line, width = int(data[1]), int(data[5]), int(data[6])
+        count = int(data[1])
+        a_line, width = int(data["a_line"] or OLD_A_LINE), int(data["width"] or OLD_WIDTH)
         if count < 2 or a_line < 1 or width < 2:
             raise text.refusal(
                 line, f"expected at least 2 points and a Fortran format, found {data[0].strip()!r}"
@@ -60,9 +67,10 @@ def _read_block(text: TextFile, first: int) -> tuple[Channel, int]:
         last = line + -(-count // a_line)
         values = parse_columns(text, line + 1, last, width, count)
         if quantity == "accel":
-            unit = UNITS.get(data[4].lower())
+            spelling = data["unit"] or data["old_unit"]
+            unit = UNITS.get(spelling.lower())
             if unit is None:
-                raise text.refusal(line, f"expected acceleration in cm/sec2 or g, found {data[4]!r}")
+                raise text.refusal(line, f"expected acceleration in cm/sec2 or g, found {spelling!r}")
             channel = _channel(
                 text, first, Channel("", to_si(values, unit), _step(text, line, data[3]), unit)
             )
@@ -90,7 +98,7 @@ def _step(text: TextFile, line: int, printed: str) -> float:
 
 def _channel(text: TextFile, first: int, channel: Channel) -> Channel:
     lines = [line.strip() for line in text.lines[first - 1 : first + 24]]
-    direction = re.sub(r"^Chan\s*\w+:\s*", "", lines[7])
+    direction = re.sub(r"^Chan\s*\w+:\s*", "", lines[7], flags=re.IGNORECASE)
     return Channel(
         name=direction,
         acceleration=channel.acceleration,

@@ -18,7 +18,8 @@ COMMENTS: Final = 15  # integer 16: how many lines of comment
 COUNT: Final = 16  # integer 17: how many values
 RATE: Final = 1  # real 2: samples a second
 A_LINE, WIDTH = 8, 10
-NO_REAL: Final = 1.7e38
+NO_REAL: Final = 1.69e38
+"""What stands for an unknown number is 1.7e38, in single precision."""
 
 _TITLE: Final = re.compile(
     r"\s*([1-6])\s+(UNCORRECTED|CORRECTED|VELOCITY|DISPLACEMENT|RESPONSE|FOURIER)", re.IGNORECASE
@@ -46,7 +47,12 @@ def read(text: TextFile) -> tuple[Channel, ...]:
         raise text.refusal(
             TEXT_LINES + 1 + COUNT // 8, f"expected at least 2 points as integer 17, found {count}"
         )
-    if not 0.0 < rate < NO_REAL:
+    if rate >= NO_REAL:
+        problem = (
+            "expected samples a second as real 2, found none: digitised from film, at unequal time steps"
+        )
+        raise text.refusal(TEXT_LINES + 1 + INTEGER_LINES, problem)
+    if rate <= 0.0:
         raise text.refusal(
             TEXT_LINES + 1 + INTEGER_LINES, f"expected samples a second as real 2, found {rate:g}"
         )

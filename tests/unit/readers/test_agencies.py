@@ -10,7 +10,7 @@ from fdspec.records import read_channels, read_record
 from fdspec.records.formats import FORMATS
 from fdspec.units import G
 from tests.fixtures.records import samples
-from tests.fixtures.records.samples import SAMPLES
+from tests.fixtures.records.samples import SAMPLES, VARIANTS
 
 # format -> channels, time step, event, station and component of the first, what opens its history
 SAID = {
@@ -22,6 +22,10 @@ SAID = {
     "CSMIP V2": (
         ["90 Deg"], 0.01, "Sat Jan 02, 1999 12:00:00.0 UTC", "Old Mill", "90 Deg",
         "Accelerogram bandpass filtered with 3 dB pts at   .10 and 40.00 cyc/sec",
+    ),
+    "CSMIP V2 of 1983": (
+        ["90 DEG"], 0.01, "RCRD OF SAT JAN 02, 1999 12:00:00.0 UTC", "OLD MILL", "90 DEG",
+        "ACCELEROGRAM BANDPASS FILTERED WITH",
     ),
     "CSMIP V1": (["90 Deg", "Up"], 0.01, "Sat Jan 02, 1999 12:00:00.0 UTC", "Old Mill", "90 Deg", ""),
     "CSMIP V1 in pairs": (["NS"], 0.01, "01/02/1999 12:00:00", "OLD MILL", "NS", ""),
@@ -46,8 +50,8 @@ SAID = {
 
 
 def test_every_format_has_a_sample():
-    samples = {name.removesuffix(" in pairs") for name in SAMPLES}
-    assert samples == {known.name for known in FORMATS} | {"columns of text"}
+    of = {VARIANTS.get(name, name) for name in SAMPLES}
+    assert of == {known.name for known in FORMATS} | {"columns of text"}
 
 
 @pytest.mark.parametrize("name", SAMPLES)
@@ -64,7 +68,7 @@ def test_sample_files(record_file, name, ending):
     first = read[channels[0]]
     assert (first.event, first.station, first.component) == (event, station, component)
     assert first.history[0].startswith(first_step) if first_step else first.history == ()
-    assert name.removesuffix(" in pairs") in first.source
+    assert VARIANTS.get(name, name) in first.source
 
 
 @pytest.mark.parametrize("name", sorted(set(SAMPLES) - {"columns of text"}))
@@ -81,6 +85,7 @@ COUNTS = {
     "PEER AT2": "NPTS=     23",
     "COSMOS V1 or V2": "      23 acceleration pts",
     "CSMIP V2": "    23 points of accel",
+    "CSMIP V2 of 1983": "   23 POINTS OF ACCEL",
     "CSMIP V1": "    23 Accelerogram points",
     "CSMIP V1 in pairs": "NO. OF POINTS =     23",
     "USGS SMC": "    -32768         1\n        23    -32768",
@@ -316,6 +321,7 @@ DAMAGED_HEADERS = [
         "at  .0.1 sec, in cm/sec2",
         "expected the step of real-header value 53",
     ),
+    ("CSMIP V2 of 1983", "UNITS: CM/SEC/SEC", "UNITS: FURLONGS", "in cm/sec2 or g, found 'FURLONGS'"),
     ("CSMIP V2", "End of data", "Nothing", "expected the end of data"),
     (
         "CSMIP V1",
@@ -335,6 +341,12 @@ DAMAGED_HEADERS = [
     ("CSMIP V1", "End of Data", "Nothing", "expected the end of data"),
     ("CSMIP V1 in pairs", "SEC AND G/10", "SEC AND CM", "expected 'UNITS OF UNCOR ACCEL ARE SEC AND G/10'"),
     ("CSMIP V1 in pairs", "  0.020  0", "  0.027  0", "expected equal time steps"),
+    (
+        "USGS SMC",
+        "  1.0000000E+02",
+        "  1.7000000E+38",
+        "found none: digitised from film, at unequal time steps",
+    ),
     ("USGS SMC", "  1.0000000E+02", "  0.0000000E+00", "expected samples a second as real 2, found 0"),
     ("ESM or ITACA ASCII", "UNITS: cm/s^2", "UNITS: cm", "expected UNITS: cm/s.2, found 'cm'"),
     (
