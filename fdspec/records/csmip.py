@@ -1,4 +1,4 @@
-"""CSMIP (CGS, CDMG) V2: text, integers, reals, then acceleration, velocity and displacement; a channel a block.
+"""CSMIP (CGS, CDMG) V2: text, integers, reals, then acceleration, velocity, displacement; a channel a block.
 
 Before the nineties the lines above the values gave their unit and no Fortran format, which was 8F10.3.
 """
