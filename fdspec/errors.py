@@ -23,3 +23,11 @@ class IntegrationError(FdspecError, RuntimeError):
 
 class StoreError(FdspecError, OSError):
     """A cube that cannot be written or read."""
+
+
+class DiskError(StoreError):
+    """A disk that gave out at work: full, read-only, gone."""
+
+
+class ClusterError(FdspecError, RuntimeError):
+    """A cluster that cannot be reached, or whose workers fail."""

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from types import FrameType
-from typing import Any, Final, Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, Final, Generic, NamedTuple, TypeVar
 
 import dask
 import numpy as np
@@ -23,6 +23,9 @@ from numpy.typing import NDArray
 from fdspec.errors import InvalidInput
 from fdspec.motion import GroundMotion
 from fdspec.progress import progress as progress_bar
+
+if TYPE_CHECKING:
+    from distributed import Client
 
 IntArray = NDArray[np.int64]
 Result = TypeVar("Result")
@@ -79,20 +82,31 @@ def fan_out(
     workers: int | None,
     scheduler: str,
     progress: bool,
+    client: Client | None = None,
+    finished: int = 0,
 ) -> list[Result]:
     """Return the work's result for every task, in their order.
 
     work: a function of a module, or a partial of one, which other processes can import; each: histories
     of an item; warm: loads the kernels, compiling them where no cache holds them, before many threads want
-    them.
+    them; client: a cluster that takes the tasks instead; finished: histories done before, for the bar.
     """
     if workers is not None and workers < 1:
         raise InvalidInput(f"workers must be at least 1, got {workers}")
+    total = finished + each * sum(task.items.size for task in tasks)
+    if client is not None:
+        from fdspec.cluster import gather
+
+        with progress_bar(total, "histories", shown=progress, finished=finished) as done:
+
+            def tell(task: Task) -> None:
+                done(each * task.items.size)
+
+            return gather(client, work, motions, tasks, tell)
     records = [dask.delayed(motion, pure=False, traverse=False) for motion in motions]
     counted = dask.delayed(partial(_counted, work, each), pure=False, traverse=False)
     graph = [counted(task.items, records[task.record]) for task in tasks]
-    total = each * sum(task.items.size for task in tasks)
-    with progress_bar(total, "histories", shown=progress) as done, _reported(done):
+    with progress_bar(total, "histories", shown=progress, finished=finished) as done, _reported(done):
         with interrupted_at_last():
             warm()
         parts = dask.compute(*graph, scheduler=scheduler, num_workers=workers or cores())

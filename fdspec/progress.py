@@ -14,7 +14,7 @@ DELAY: Final = 1.0
 
 @contextmanager
 def progress(
-    total: int, what: str, *, shown: bool = True, delay: float = DELAY
+    total: int, what: str, *, shown: bool = True, delay: float = DELAY, finished: int = 0
 ) -> Iterator[Callable[[int], None]]:
     """Show how much of `total` is done while the block runs.
 
@@ -28,6 +28,8 @@ def progress(
         False shows nothing, as does a stderr that is no terminal.
     delay : float, s
         The bar appears when the block has run this long, whether or not a piece is done.
+    finished : int
+        Pieces done before; they do not count in the rate.
 
     Yields
     ------
@@ -57,7 +59,7 @@ def progress(
         console=Console(stderr=True),
         transient=True,
     )
-    task = bar.add_task(what, total=total)
+    task = bar.add_task(what, total=total, completed=finished)
     timer = threading.Timer(delay, bar.start)
     timer.daemon = True
     timer.start()

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import os
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from functools import partial
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 import xarray as xr
@@ -19,7 +21,12 @@ from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.motion import GroundMotion
 from fdspec.variables import CUBE, STUDY_DIMS
 
+if TYPE_CHECKING:
+    from distributed import Client
+
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+Columns = tuple[FloatArray, FloatArray, FloatArray]
 
 SECONDS_PER_SAMPLE: Final = 12e-9
 """Core time of one history for each sample of its record, roughly; for plans, not for results."""
@@ -69,6 +76,9 @@ def sweep(
     workers: int | None = None,
     scheduler: str = "threads",
     columns_per_task: int | None = None,
+    client: Client | None = None,
+    store: str | os.PathLike[str] | None = None,
+    restart: bool = False,
     progress: bool = False,
 ) -> xr.Dataset:
     """Compute the cube: peaks of a single-storey frame over record, stiffness ratio, pretension and period.
@@ -102,6 +112,13 @@ def sweep(
     columns_per_task : int, optional
         (stiffness ratio, period) pairs of one task; about 0.2 s of work unless given.  No result
         depends on it.
+    client : distributed.Client, optional
+        Any cluster of dask.distributed, in place of threads here.
+    store : path, optional
+        A Zarr store, ``cube.zarr``, into which the workers write block by block what they compute: more than
+        memory holds.  When it is there, from a sweep that was stopped, only what is missing is computed.
+    restart : bool
+        Whether a store that is there is removed first.
     progress : bool
         Show a bar on stderr where it is a terminal.
 
@@ -109,12 +126,14 @@ def sweep(
     -------
     xarray.Dataset
         Dims (record, stiffness_ratio, pretension, period); variables, units and meanings are those
-        of `fdspec.variables.CUBE`.
+        of `fdspec.variables.CUBE`.  With a store it is read from there when it is used.
 
     Raises
     ------
     InvalidInput
         For an argument that cannot be used, by name and value.
+    StoreError
+        For a store that holds another sweep, with what differs, or that cannot be written.
 
     Notes
     -----
@@ -141,30 +160,30 @@ def sweep(
         raise InvalidInput(f"outputs {', '.join(strain)} need method 'exact', got {other.name!r}")
     n_sr, n_f, n_t = grid.shape
     seconds = [_core_seconds(motion.n, grid, certify) for motion in motions]
-    tasks = plan(n_sr * n_t, seconds, columns_per_task, "columns_per_task")
     energy = certify or bool({"input_energy", "energy_error"} & set(wanted))
-    parts = fan_out(
-        partial(_run_columns, grid, energy, certify, bool(strain), other),
-        motions,
-        tasks,
+    run = partial(_run_columns, grid, energy, certify, bool(strain), other)
+    fan = partial(
+        fan_out,
+        motions=motions,
         each=n_f,
         warm=_warm,
         workers=workers,
         scheduler=scheduler,
+        client=client,
         progress=progress,
     )
     parameters = {name: getattr(grid, name) for name in grid.__dataclass_fields__}
-    return assemble(
-        _variables(grid, len(motions), tasks, parts, wanted),
-        {
+    cube_of = partial(
+        assemble,
+        axes={
             "stiffness_ratio": grid.stiffness_ratio,
             "pretension": grid.pretension,
             "period": grid.period,
             "slip_force": grid.slip_force,
             "kinetic_slip_force": grid.kinetic_slip_force,
         },
-        CUBE,
-        motions,
+        registry=CUBE,
+        motions=motions,
         title="Peak response of single-storey frames with friction dampers",
         parameters={
             **parameters,
@@ -174,6 +193,21 @@ def sweep(
         },
         command="fdspec.sweep",
     )
+    if store is not None:
+        from fdspec.resumable import sweep_into
+
+        return sweep_into(
+            store,
+            cube_of({}),
+            [CUBE[name] for name in wanted],
+            partial(_block, grid, run, wanted),
+            fan,
+            seconds=sum(seconds),
+            columns_per_task=columns_per_task,
+            restart=restart,
+        )
+    tasks = plan(n_sr * n_t, seconds, columns_per_task, "columns_per_task")
+    return cube_of(_variables(grid, len(motions), tasks, fan(run, tasks=tasks), wanted))
 
 
 def estimate(motions: Sequence[GroundMotion], grid: Grid, certify: bool = True) -> float:
@@ -189,7 +223,7 @@ def _warm() -> None:
     import fdspec.columns  # noqa: F401
 
 
-def _frames(grid: Grid, columns: NDArray[np.int64]) -> FloatArray:
+def _frames(grid: Grid, columns: IntArray) -> FloatArray:
     """Rows of floor mass, damping, stiffness, brace mass, damping, stiffness for these pairs."""
     ratio, period = np.unravel_index(columns, (grid.stiffness_ratio.size, grid.period.size))
     stiffness = grid.floor_mass * (2.0 * np.pi / grid.period[period]) ** 2
@@ -210,9 +244,9 @@ def _run_columns(
     certify: bool,
     strain: bool,
     other: Method | None,
-    columns: NDArray[np.int64],
+    columns: IntArray,
     motion: GroundMotion,
-) -> tuple[FloatArray, FloatArray, FloatArray]:
+) -> Columns:
     """Integrate some (stiffness ratio, period) pairs: all pretensions, never slipping, without brace.
 
     Each in the order of RESULTS; where wanted, those of STRAIN follow, save of braced frames.
@@ -240,11 +274,25 @@ def _run_columns(
     return results, braced, free
 
 
+def _block(
+    grid: Grid,
+    run: Callable[[IntArray, GroundMotion], Columns],
+    wanted: Sequence[str],
+    columns: IntArray,
+    motion: GroundMotion,
+) -> dict[str, NDArray[np.generic]]:
+    """Compute the part of the cube that these columns, a block of (stiffness ratio, period), make up."""
+    ratio, period = map(np.unique, np.unravel_index(columns, (grid.stiffness_ratio.size, grid.period.size)))
+    part = replace(grid, stiffness_ratio=grid.stiffness_ratio[ratio], period=grid.period[period])
+    mine = [name for name in wanted if ratio[0] == 0 or "stiffness_ratio" in CUBE[name].dims]
+    return _variables(part, 1, [Task(0, np.arange(columns.size))], [run(columns, motion)], mine)
+
+
 def _variables(
     grid: Grid,
     n_r: int,
     tasks: Sequence[Task],
-    parts: Sequence[tuple[FloatArray, FloatArray, FloatArray]],
+    parts: Sequence[Columns],
     wanted: Sequence[str],
 ) -> dict[str, NDArray[Any]]:
     """Put what the tasks returned where it stands in the cube."""

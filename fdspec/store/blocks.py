@@ -10,10 +10,17 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any, Protocol
 
 import numpy as np
 
-from fdspec.variables import Variable
+
+class HasDims(Protocol):
+    """A variable, of the registry or of a Dataset."""
+
+    @property
+    def dims(self) -> tuple[Any, ...]:
+        """Names of its dims."""
 
 
 @dataclass(frozen=True)
@@ -54,35 +61,38 @@ class Blocks:
         """Cells of a block."""
         return math.prod(part.stop - part.start for part in self.slices(number).values())
 
-    def owns(self, number: int, variable: Variable) -> bool:
+    def owns(self, number: int, variable: HasDims) -> bool:
         """Whether it is this block that holds the variable's chunk."""
         return all(k == 0 for dim, k in self.place(number).items() if dim not in variable.dims)
 
-    def chunks(self, variable: Variable) -> tuple[int, ...]:
+    def chunks(self, variable: HasDims) -> tuple[int, ...]:
         """Shape of the variable's chunks."""
         return tuple(self.edges[dim] for dim in variable.dims)
 
-    def shape(self, variable: Variable) -> tuple[int, ...]:
+    def shape(self, variable: HasDims) -> tuple[int, ...]:
         """Shape of the whole variable."""
         return tuple(self.sizes[dim] for dim in variable.dims)
 
-    def region(self, number: int, variable: Variable) -> tuple[slice, ...]:
+    def region(self, number: int, variable: HasDims) -> tuple[slice, ...]:
         """Where the block's chunk stands in the variable."""
         slices = self.slices(number)
         return tuple(slices[dim] for dim in variable.dims)
 
-    def chunk_of(self, number: int, variable: Variable) -> tuple[int, ...]:
+    def chunk_of(self, number: int, variable: HasDims) -> tuple[int, ...]:
         """Position of the block's chunk, counted in chunks."""
         place = self.place(number)
         return tuple(place[dim] for dim in variable.dims)
 
 
-def cut(sizes: Mapping[str, int], along: Sequence[str], cells: float) -> Blocks:
-    """Cut a cube into blocks of about so many cells, whole along all dims but these, the first cut last.
+def cut(
+    sizes: Mapping[str, int], along: Sequence[str], cells: float, *, singly: Sequence[str] = ()
+) -> Blocks:
+    """Cut a cube into blocks of at most so many cells where that can be.
 
-    Along a dim the blocks are as even as they can be.
+    along: dims to cut, the first before the others; singly: dims of length 1 in every block; all other dims
+    stay whole.  Along a dim the blocks are as even as they can be.
     """
-    edges = dict(sizes)
+    edges = {dim: 1 if dim in singly else size for dim, size in sizes.items()}
     for dim in along:
         others = math.prod(edges.values()) // edges[dim]
         edge = max(1, min(sizes[dim], math.floor(cells / others)))

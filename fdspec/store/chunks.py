@@ -21,10 +21,10 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from fdspec.errors import StoreError
+from fdspec.errors import DiskError, StoreError
 from fdspec.store import layout
 from fdspec.store.blocks import Blocks
-from fdspec.variables import Registry, Variable
+from fdspec.variables import Variable
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -37,6 +37,9 @@ BLOCKS: Final = "fdspec_blocks"
 
 IDENTITY: Final = "fdspec_identity"
 """Attribute of the store alone: what a sweep must share to go on in it."""
+
+ORDER: Final = "fdspec_order"
+"""Attribute of the store alone: its variables in their order, which a folder does not keep."""
 
 VERSION: Final = 1
 
@@ -81,13 +84,15 @@ def create(
     part = target.with_name(f".fdspec-{os.getpid()}-{secrets.token_hex(4)}.part")
     with written(path):
         try:
-            attributes = {
+            on_disk = _plain_text(layout.to_disk(frame.drop_encoding()))
+            on_disk.attrs |= {
                 FORMAT: VERSION,
                 BLOCKS: {"sizes": dict(blocks.sizes), "edges": dict(blocks.edges)},
                 IDENTITY: dict(identity),
+                ORDER: [*map(str, on_disk.variables), *(variable.name for variable in variables)],
             }
-            on_disk = _plain_text(layout.to_disk(frame.drop_encoding()).assign_attrs(attributes))
-            on_disk.to_zarr(part, mode="w-", zarr_format=3, consolidated=False)
+            bare = {name: {"_FillValue": None} for name in on_disk.variables}
+            on_disk.to_zarr(part, mode="w-", zarr_format=3, consolidated=False, encoding=bare)
             group = zarr.open_group(part, mode="r+", zarr_format=3)
             for variable in variables:
                 _create_array(group, variable, blocks)
@@ -117,7 +122,7 @@ def write(
     blocks: Blocks,
     number: int,
     values: Mapping[str, NDArray[np.generic]],
-    registry: Registry,
+    variables: Sequence[Variable],
 ) -> None:
     """Write one block's values, variable by variable, the status last."""
     import zarr
@@ -125,13 +130,12 @@ def write(
     with written(path):
         # Zarr would make the folders of a store that is gone anew.
         if not is_store(path):
-            raise StoreError(f"cannot write {os.fspath(path)}: the store is gone")
+            raise DiskError(f"cannot write {os.fspath(path)}: the store is gone, and what was in it")
         group = zarr.open_group(path, mode="r+", zarr_format=3)
-        for name in sorted(values, key=lambda name: name == STATUS):
-            variable = registry[name]
+        for variable in sorted(variables, key=lambda variable: variable.name == STATUS):
             if blocks.owns(number, variable):
-                array = group[name]
-                array[blocks.region(number, variable)] = values[name]
+                array: Any = group[variable.name]
+                array[blocks.region(number, variable)] = values[variable.name]
 
 
 def states(
@@ -190,9 +194,9 @@ def open_store(path: str | os.PathLike[str]) -> xr.Dataset:
         consolidated=False,
         zarr_format=3,
     )
-    cube = layout.from_disk(on_disk)
-    for name in (FORMAT, BLOCKS, IDENTITY):
-        cube.attrs.pop(name, None)
+    cube = layout.from_disk(on_disk[on_disk.attrs[ORDER]])
+    for name in (FORMAT, BLOCKS, IDENTITY, ORDER):
+        del cube.attrs[name]
     for variable in cube.variables.values():
         variable.attrs = {key: _typed(value, variable.dtype) for key, value in variable.attrs.items()}
     if unfinished(path):
@@ -217,7 +221,9 @@ def written(path: str | os.PathLike[str]) -> Iterator[None]:
     except StoreError:
         raise
     except OSError as error:
-        raise StoreError(f"cannot write {os.fspath(path)}: {error.strerror or error}") from error
+        raise DiskError(
+            f"cannot write {os.fspath(path)}: {error.strerror or error}; what is finished is kept"
+        ) from error
 
 
 def _create_array(group: Any, variable: Variable, blocks: Blocks) -> None:
@@ -261,12 +267,12 @@ def _attributes(path: str | os.PathLike[str]) -> dict[str, Any]:
     import zarr
 
     try:
-        attributes = zarr.open_group(path, mode="r", zarr_format=3).attrs.asdict()
+        attributes: dict[str, Any] = zarr.open_group(path, mode="r", zarr_format=3).attrs.asdict()
     except (OSError, ValueError, KeyError) as error:
         raise StoreError(
             f"cannot open {os.fspath(path)}: it is no Zarr store, or a damaged one ({error})"
         ) from error
-    if not {FORMAT, BLOCKS, IDENTITY} <= attributes.keys():
+    if not {FORMAT, BLOCKS, IDENTITY, ORDER} <= attributes.keys():
         raise StoreError(
             f"cannot open {os.fspath(path)}: it is another program's Zarr store; name one that fdspec made, "
             "or read it with xarray.open_zarr"

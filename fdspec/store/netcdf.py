@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from fdspec.errors import StoreError
-from fdspec.store import layout
+from fdspec.store import chunks, layout
 from fdspec.store.replacing import replacing
 from fdspec.store.undisturbed import undisturbed
 
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 FORMAT: Final = "fdspec_format"
 """Global attribute on disk alone: the version of the layout that `save` writes."""
 
-_VERSION: Final = 1
+VERSION: Final = 1
 
 _MAGIC: Final = (b"\x89HDF\r\n\x1a\n", b"CDF\x01", b"CDF\x02", b"CDF\x05")
 
@@ -58,19 +59,20 @@ def save(dataset: xr.Dataset, path: str | os.PathLike[str], *, overwrite: bool =
     with replacing(path, overwrite=overwrite) as part:
         _check(dataset)
         on_disk = layout.to_disk(dataset.drop_encoding())
-        write_netcdf(on_disk.assign_attrs({FORMAT: np.int32(_VERSION)}), part, path)
+        write_netcdf(on_disk.assign_attrs({FORMAT: np.int32(VERSION)}), part, path)
 
 
-def open(path: str | os.PathLike[str], *, lazily: bool = False) -> xr.Dataset:  # noqa: A001
-    """Read a file that `save` wrote.
+def open(path: str | os.PathLike[str], *, lazily: bool | None = None) -> xr.Dataset:  # noqa: A001
+    """Read a file that `save` wrote, or the Zarr store of a sweep.
 
     Parameters
     ----------
     path : path
-        The file.
-    lazily : bool
-        Read numbers when they are used, for a cube that does not fit into memory; the file then stays open
-        until ``close()`` is called on the dataset. Otherwise all is read and the file is closed.
+        The file, or the store's folder.
+    lazily : bool, optional
+        Read numbers when they are used, for a cube that does not fit into memory; a file then stays open
+        until ``close()`` is called on the dataset. Otherwise all is read and the file is closed. Unless said
+        otherwise a file is read and a store is not.
 
     Returns
     -------
@@ -81,7 +83,15 @@ def open(path: str | os.PathLike[str], *, lazily: bool = False) -> xr.Dataset:  
     ------
     StoreError
         When the file is missing, damaged or not one of fdspec's.
+
+    Warns
+    -----
+    UserWarning
+        When a store's sweep has not come to its end; cells not computed yet say so in their status.
     """
+    if chunks.is_store(path):
+        return _read_store(path, lazily=lazily is not False)
+    lazily = bool(lazily)
     _check_magic(Path(path))
     try:
         with undisturbed():
@@ -91,6 +101,23 @@ def open(path: str | os.PathLike[str], *, lazily: bool = False) -> xr.Dataset:  
     except (OSError, RuntimeError, ValueError) as error:
         raise StoreError(
             f"cannot open {os.fspath(path)}: the file is damaged or incomplete ({error}); write it again"
+        ) from error
+
+
+def _read_store(path: str | os.PathLike[str], lazily: bool) -> xr.Dataset:
+    left, blocks = chunks.unfinished(path), len(chunks.described(path)[0])
+    if left:
+        warnings.warn(
+            f"{os.fspath(path)}: {left} of {blocks} blocks are not computed yet; start the sweep again",
+            UserWarning,
+            stacklevel=3,
+        )
+    try:
+        cube = chunks.open_store(path)
+        return cube if lazily else cube.load()
+    except (OSError, RuntimeError, ValueError) as error:
+        raise StoreError(
+            f"cannot open {os.fspath(path)}: the store is damaged ({error}); 'fdspec check' says where"
         ) from error
 
 
@@ -159,7 +186,7 @@ def _check_attributes(owner: str, attributes: dict[Any, Any]) -> None:
 
 def _check_magic(path: Path) -> None:
     if path.is_dir():
-        raise StoreError(f"cannot open {path}: it is a folder; name a netCDF file in it")
+        raise StoreError(f"cannot open {path}: it is a folder; name a netCDF file in it, or a Zarr store")
     try:
         with path.open("rb") as file:
             start = file.read(8)
@@ -178,8 +205,8 @@ def _check_format(on_disk: xr.Dataset, path: str | os.PathLike[str]) -> None:
             "name one that fdspec saved, or read it with xarray.open_dataset"
         )
     version = int(on_disk.attrs[FORMAT])
-    if version > _VERSION:
+    if version > VERSION:
         raise StoreError(
-            f"cannot open {os.fspath(path)}: its layout is version {version}, this fdspec knows {_VERSION}; "
+            f"cannot open {os.fspath(path)}: its layout is version {version}, this fdspec knows {VERSION}; "
             "upgrade fdspec"
         )

@@ -1,0 +1,147 @@
+"""Tasks on a cluster of dask.distributed; the only importer of distributed.
+
+What many tasks share (the work with its grid, each record) is a task of its own: a worker gets it once and
+keeps it, and when the worker that held it dies it is made again.
+"""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any, Final, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fdspec.errors import ClusterError, FdspecError
+from fdspec.motion import GroundMotion
+
+if TYPE_CHECKING:
+    from distributed import Client, Future
+
+    from fdspec.fanout import Task
+
+IntArray = NDArray[np.int64]
+Result = TypeVar("Result")
+
+IN_FLIGHT: Final = 2000
+"""Tasks that the scheduler knows at a time: many for any cluster that grows by need, few for its memory."""
+
+RETRIES: Final = 2
+"""More attempts at a task that failed: a network file system may come back."""
+
+DEATHS: Final = 2
+"""Times that a task may be given up by the scheduler, which each time saw it take several workers along."""
+
+PATIENCE: Final = 120.0
+"""s that a lost scheduler, or the first worker, is waited for."""
+
+log = logging.getLogger(__name__)
+
+
+def gather(
+    client: Client,
+    work: Callable[[IntArray, GroundMotion], Result],
+    motions: Sequence[GroundMotion],
+    tasks: Sequence[Task],
+    done: Callable[[Task], None],
+) -> list[Result]:
+    """Return the work's result for every task, in their order.
+
+    done: told of each task as it ends.  A worker that is lost costs what it was at; a scheduler that is lost
+    and comes back within PATIENCE costs what it knew, not what has come home.
+    """
+    results: dict[int, Result] = {}
+    deaths: dict[int, int] = {}
+    left = list(range(len(tasks)))
+    while left:
+        for index, outcome in _round(client, work, motions, tasks, left):
+            if isinstance(outcome, Exception):
+                deaths[index] = deaths.get(index, 0) + 1
+                log.warning("a task took its workers along: %s", outcome)
+                continue
+            results[index] = outcome
+            done(tasks[index])
+        left = [index for index in left if index not in results]
+        if doomed := [index for index in left if deaths.get(index, 0) >= DEATHS]:
+            names = sorted({motions[tasks[index].record].name for index in doomed})
+            raise ClusterError(
+                f"{len(doomed)} of {len(tasks)} tasks killed every worker that took them (records "
+                f"{', '.join(names)}): the workers may need more memory; the others are done"
+            )
+        if left:
+            log.warning("%d of %d tasks have to be sent again", len(left), len(tasks))
+            _wait_for_scheduler(client)
+    return [results[index] for index in range(len(tasks))]
+
+
+def _round(
+    client: Client,
+    work: Callable[[IntArray, GroundMotion], Result],
+    motions: Sequence[GroundMotion],
+    tasks: Sequence[Task],
+    left: Sequence[int],
+) -> Iterator[tuple[int, Any]]:
+    """Send tasks and give (index, result), or KilledWorker in the result's place; end when all are heard of.
+
+    Ends early, without a word of the others, when the scheduler is lost.
+    """
+    from distributed import KilledWorker, as_completed
+
+    shared = client.submit(_itself, work, pure=False)
+    records: dict[int, Future[Any]] = {}
+    index_of: dict[Future[Any], int] = {}
+    waiting = iter(left)
+
+    def send(index: int) -> Future[Any]:
+        task = tasks[index]
+        if task.record not in records:
+            # Tasks come record by record; those in flight keep what they need.
+            for other in [record for record in records if record < task.record]:
+                del records[other]
+            records[task.record] = client.submit(_itself, motions[task.record], pure=False)
+        future = client.submit(
+            _run, shared, task.items, records[task.record], pure=False, retries=RETRIES, priority=-index
+        )
+        index_of[future] = index
+        return future
+
+    completed = as_completed([send(index) for index, _ in zip(waiting, range(IN_FLIGHT), strict=False)])
+    try:
+        for future in completed:
+            index = index_of.pop(future)
+            if future.status == "finished":
+                yield index, future.result()
+            elif future.status == "error":
+                error = future.exception()
+                if not isinstance(error, KilledWorker):
+                    raise error if isinstance(error, FdspecError) else ClusterError(_told(error)) from error
+                yield index, error
+            else:  # cancelled: the scheduler has gone, and all that it knew
+                return
+            for following in waiting:
+                completed.add(send(following))
+                break
+    finally:
+        client.cancel(list(index_of))
+
+
+def _itself(value: Result) -> Result:
+    return value
+
+
+def _run(work: Callable[[IntArray, GroundMotion], Result], items: IntArray, motion: GroundMotion) -> Result:
+    return work(items, motion)
+
+
+def _wait_for_scheduler(client: Client) -> None:
+    until = time.monotonic() + PATIENCE
+    while client.status != "running":
+        if client.status == "closed" or time.monotonic() > until:
+            raise ClusterError("the scheduler is lost; start the sweep again when it is back")
+        time.sleep(0.2)
+
+
+def _told(error: BaseException | None) -> str:
+    return f"a task failed on the cluster: {type(error).__name__}: {error}"
