@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import Final
 
+from fdspec.records.blocks import read_blocks
 from fdspec.records.channel import Channel
 from fdspec.records.numbers import parse_columns, parse_number
 from fdspec.records.textfile import TextFile
@@ -25,14 +26,7 @@ def recognises(text: TextFile) -> bool:
 
 def read(text: TextFile) -> tuple[Channel, ...]:
     """Read all components."""
-    channels = []
-    number = 1
-    while number <= len(text.lines):
-        if _TITLE.match(text.lines[number - 1]) is None:
-            raise text.refusal(number, f"expected '* VOL1DS FILE', found {text.lines[number - 1][:60]!r}")
-        channel, number = _read_block(text, number)
-        channels.append(channel)
-    return tuple(channels)
+    return read_blocks(text, _TITLE, "'* VOL1DS FILE'", _read_block)
 
 
 def _read_block(text: TextFile, first: int) -> tuple[Channel, int]:

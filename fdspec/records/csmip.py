@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from typing import Final
 
+from fdspec.records.blocks import read_blocks
 from fdspec.records.channel import Channel
 from fdspec.records.numbers import parse_columns
 from fdspec.records.textfile import TextFile
@@ -39,16 +40,7 @@ def recognises(text: TextFile) -> bool:
 
 def read(text: TextFile) -> tuple[Channel, ...]:
     """Read the acceleration of each channel."""
-    channels = []
-    number = 1
-    while number <= len(text.lines):
-        if _TITLE.match(text.lines[number - 1]) is None:
-            raise text.refusal(
-                number, f"expected 'Corrected accelerogram', found {text.lines[number - 1][:60]!r}"
-            )
-        channel, number = _read_block(text, number)
-        channels.append(channel)
-    return tuple(channels)
+    return read_blocks(text, _TITLE, "'Corrected accelerogram'", _read_block)
 
 
 def _read_block(text: TextFile, first: int) -> tuple[Channel, int]:

@@ -12,6 +12,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from fdspec.records.blocks import read_blocks
 from fdspec.records.channel import Channel
 from fdspec.records.numbers import parse_columns
 from fdspec.records.textfile import TextFile
@@ -42,16 +43,7 @@ def recognises(text: TextFile) -> bool:
 
 def read(text: TextFile) -> tuple[Channel, ...]:
     """Read each channel of the file."""
-    channels = []
-    number = 1
-    while number <= len(text.lines):
-        if _TITLE.match(text.lines[number - 1]) is None:
-            raise text.refusal(
-                number, f"expected the title of a channel, found {text.lines[number - 1][:60]!r}"
-            )
-        channel, number = _read_block(text, number)
-        channels.append(channel)
-    return tuple(channels)
+    return read_blocks(text, _TITLE, "the title of a channel", _read_block)
 
 
 def _read_block(text: TextFile, first: int) -> tuple[Channel, int]:
