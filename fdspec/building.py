@@ -6,48 +6,29 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from fdspec.building_check import numbers, per_storey, read_only, refuse_impossible, require
+from fdspec.checked import not_negative_number, positive_number
 from fdspec.damping import Damping, DampingMatrix, ModalDamping, RayleighDamping, natural_modes, symmetric
 from fdspec.errors import InvalidInput
 from fdspec.kernels.types import Storey
+from fdspec.linkage import Frame, Linkage, shear_matrix
 
-__all__ = ["Building", "DampingMatrix", "ModalDamping", "RayleighDamping"]
+__all__ = [
+    "Building",
+    "DampingMatrix",
+    "Frame",
+    "Linkage",
+    "ModalDamping",
+    "RayleighDamping",
+    "shear_matrix",
+]
 
 Array = NDArray[np.float64]
-
-
-class Frame(NamedTuple):
-    """A building for the kernel of N storeys: see `fdspec.kernels.frame` for the rows of `properties`."""
-
-    properties: Array
-    dense_stiffness: Array
-    dense_damping: Array
-
-
-class Linkage(NamedTuple):
-    """A symmetric matrix as springs between neighbours and to the ground, or whole where it is none of these.
-
-    A matrix of zeros stands beside a dense one, and an empty one beside springs.
-    """
-
-    storey: Array
-    ground: Array
-    dense: Array
-
-    @classmethod
-    def of(cls, matrix: Array) -> Linkage:
-        """Take a matrix (N, N) apart."""
-        size = matrix.shape[0]
-        if np.triu(matrix, 2).any():
-            return cls(np.zeros(size), np.zeros(size), matrix)
-        storey = np.append(0.0, -np.diag(matrix, -1))
-        ground = np.diag(matrix) - storey - np.append(storey[1:], 0.0)
-        storey[0], ground[0] = ground[0], 0.0
-        return cls(storey, ground, np.zeros((0, 0)))
 
 
 @dataclass(frozen=True, init=False, eq=False, repr=False)
@@ -121,17 +102,17 @@ class Building:
             "kinetic_slip_force": slip_force if kinetic_slip_force is None else kinetic_slip_force,
             "brace_damping": 0.0 if brace_damping is None else brace_damping,
         }
-        arrays = {name: _numbers(name, value) for name, value in given.items()}
+        arrays = {name: numbers(name, value) for name, value in given.items()}
         if np.ndim(storey_stiffness) == 2:
             stiffness = symmetric("stiffness", storey_stiffness, "N/m")
             size = stiffness.shape[0]
         else:
-            stiffness = _numbers("storey_stiffness", storey_stiffness)
+            stiffness = numbers("storey_stiffness", storey_stiffness)
             size = max(array.size for array in [stiffness, *arrays.values()])
             arrays["storey_stiffness"] = stiffness
-        fields = {name: _per_storey(name, array, size) for name, array in arrays.items()}
+        fields = {name: per_storey(name, array, size) for name, array in arrays.items()}
         fields.setdefault("storey_stiffness", stiffness)
-        _check(fields)
+        refuse_impossible(fields)
         chosen = ModalDamping() if damping is None else damping
         if not isinstance(chosen, Damping):
             raise InvalidInput(
@@ -176,10 +157,10 @@ class Building:
         Building
             One storey.
         """
-        mass = _positive("floor_mass", floor_mass, "kg")
-        stiffness = mass * (2.0 * math.pi / _positive("period", period, "s")) ** 2
-        ratio = _not_negative("stiffness_ratio", stiffness_ratio)
-        brace_ratio = _not_negative("brace_damping_ratio", brace_damping_ratio)
+        mass = positive_number("floor_mass", floor_mass, "kg")
+        stiffness = mass * (2.0 * math.pi / positive_number("period", period, "s")) ** 2
+        ratio = not_negative_number("stiffness_ratio", stiffness_ratio)
+        brace_ratio = not_negative_number("brace_damping_ratio", brace_damping_ratio)
         brace_stiffness = ratio * stiffness
         return cls(
             mass,
@@ -189,7 +170,7 @@ class Building:
             slip_force,
             kinetic_slip_force,
             ModalDamping(damping_ratio),
-            2.0 * brace_ratio * math.sqrt(brace_stiffness * _not_negative("brace_mass", brace_mass)),
+            2.0 * brace_ratio * math.sqrt(brace_stiffness * not_negative_number("brace_mass", brace_mass)),
         )
 
     @classmethod
@@ -234,12 +215,12 @@ class Building:
         >>> float(frame.bare_periods[0]), float(frame.braced_periods[0])
         (1.006, 0.612)
         """
-        floors = np.atleast_1d(_numbers("floor_mass", floor_mass))
-        _require("floor_mass", floors, floors > 0.0, "positive and finite, in kg")
-        braces = _per_storey("brace_mass", _numbers("brace_mass", brace_mass), floors.size)
-        _require("brace_mass", braces, braces >= 0.0, "0 or more and finite, in kg")
-        stiffness = _stiffness_for(_positive("bare_period", bare_period, "s"), floors)
-        together = _stiffness_for(_positive("braced_period", braced_period, "s"), floors + braces)
+        floors = np.atleast_1d(numbers("floor_mass", floor_mass))
+        require("floor_mass", floors, floors > 0.0, "positive and finite, in kg")
+        braces = per_storey("brace_mass", numbers("brace_mass", brace_mass), floors.size)
+        require("brace_mass", braces, braces >= 0.0, "0 or more and finite, in kg")
+        stiffness = _stiffness_for(positive_number("bare_period", bare_period, "s"), floors)
+        together = _stiffness_for(positive_number("braced_period", braced_period, "s"), floors + braces)
         if together <= stiffness:
             raise InvalidInput(
                 "braced_period must be short enough for a brace of positive stiffness, but "
@@ -314,12 +295,12 @@ class Building:
         """Stiffness of the bare frame, shape (N, N), N/m."""
         if self.storey_stiffness.ndim == 2:
             return self.storey_stiffness
-        return _read_only(shear_matrix(self.storey_stiffness))
+        return read_only(shear_matrix(self.storey_stiffness))
 
     @cached_property
     def damping_matrix(self) -> Array:
         """Damping of the bare frame, shape (N, N), N s/m."""
-        return _read_only(self.damping.matrix_of(self.floor_mass, self.stiffness_matrix))
+        return read_only(self.damping.matrix_of(self.floor_mass, self.stiffness_matrix))
 
     @cached_property
     def bare_periods(self) -> Array:
@@ -368,7 +349,7 @@ class Building:
             self.slip_force,
             self.kinetic_slip_force,
         )
-        return Frame(_read_only(np.stack(rows)), stiffness.dense, damping.dense)
+        return Frame(read_only(np.stack(rows)), stiffness.dense, damping.dense)
 
     @property
     def parameters(self) -> dict[str, Array]:
@@ -421,12 +402,6 @@ class Building:
         self.__dict__.update(state)
 
 
-def shear_matrix(springs: Array) -> Array:
-    """Return the matrix (N, N) of springs between each floor and the one below."""
-    above = np.append(springs[1:], 0.0)
-    return np.diag(springs + above) - np.diag(springs[1:], 1) - np.diag(springs[1:], -1)
-
-
 def _stiffness_for(period: float, mass: Array) -> float:
     """The uniform storey stiffness that gives these masses this first period."""
     omega, _ = natural_modes(mass, shear_matrix(np.ones(mass.size)))
@@ -435,98 +410,4 @@ def _stiffness_for(period: float, mass: Array) -> float:
 
 def _periods(mass: Array, stiffness: Array) -> Array:
     omega, _ = natural_modes(mass, stiffness)
-    return _read_only(2.0 * math.pi / omega)
-
-
-def _read_only(array: Array) -> Array:
-    array.flags.writeable = False
-    return array
-
-
-def _numbers(argument: str, value: ArrayLike) -> Array:
-    """Return a copy as float64 of at most one dimension."""
-    try:
-        given = np.asarray(value)
-    except ValueError as error:
-        raise InvalidInput(f"{argument} must be a number or one number a storey ({error})") from error
-    if given.dtype.kind not in "iuf":
-        raise InvalidInput(f"{argument} must be a number or one number a storey, not {value!r}")
-    if given.ndim > 1 or given.size == 0:
-        raise InvalidInput(f"{argument} must be a number or have shape (N,), not shape {given.shape}")
-    return np.array(given, dtype=np.float64)
-
-
-def _per_storey(argument: str, array: Array, size: int) -> Array:
-    if array.size not in (1, size):
-        raise InvalidInput(
-            f"{argument} has {array.size} values, but the building has {size} storeys: give 1 or {size}"
-        )
-    # A fresh contiguous copy: kernels take no strided views.
-    return _read_only(np.array(np.broadcast_to(array, (size,)), order="C"))
-
-
-def _require(argument: str, array: Array, right: NDArray[np.bool_], wanted: str) -> None:
-    good = right & np.isfinite(array)
-    if not good.all():
-        _refuse(argument, array, good, wanted)
-
-
-def _refuse(argument: str, array: Array, good: NDArray[np.bool_], wanted: str) -> None:
-    first = int(np.argmin(good))
-    where = f" in storey {first + 1}" if array.size > 1 else ""
-    raise InvalidInput(f"{argument} must be {wanted}, not {float(array[first])!r}{where}")
-
-
-def _check(fields: dict[str, Array]) -> None:
-    """Refuse values that no building has."""
-    _require("floor_mass", fields["floor_mass"], fields["floor_mass"] > 0.0, "positive and finite, in kg")
-    stiffness = fields["storey_stiffness"]
-    if stiffness.ndim == 1:
-        _require("storey_stiffness", stiffness, stiffness > 0.0, "positive and finite, in N/m")
-    else:
-        lowest = float(np.linalg.eigvalsh(stiffness)[0])
-        if lowest <= 0.0:
-            raise InvalidInput(
-                f"stiffness must be positive definite, but its lowest eigenvalue is {lowest:g} N/m"
-            )
-    for name, unit in (("brace_mass", "kg"), ("brace_stiffness", "N/m"), ("brace_damping", "N s/m")):
-        _require(name, fields[name], fields[name] >= 0.0, f"0 or more and finite, in {unit}")
-    static, kinetic = fields["slip_force"], fields["kinetic_slip_force"]
-    for name, force in (("slip_force", static), ("kinetic_slip_force", kinetic)):
-        good = force >= 0.0  # false for NaN; infinity is a damper that never slips
-        if not good.all():
-            _refuse(name, force, good, "0 or more, in N (inf never slips)")
-    if not (kinetic <= static).all():
-        first = int(np.argmin(kinetic <= static))
-        raise InvalidInput(
-            f"kinetic_slip_force must be at most slip_force, but storey {first + 1} has "
-            f"{kinetic[first]:g} over {static[first]:g} N"
-        )
-    for name in ("brace_mass", "slip_force", "brace_damping"):
-        good = (fields["brace_stiffness"] > 0.0) | (fields[name] == 0.0)
-        if not good.all():
-            _refuse(name, fields[name], good, "0 where there is no brace (brace_stiffness 0)")
-
-
-def _finite(argument: str, value: float) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise InvalidInput(f"{argument} must be a number, not {value!r}") from None
-    if not math.isfinite(number):
-        raise InvalidInput(f"{argument} must be finite, not {value!r}")
-    return number
-
-
-def _positive(argument: str, value: float, unit: str) -> float:
-    number = _finite(argument, value)
-    if number <= 0.0:
-        raise InvalidInput(f"{argument} must be positive, in {unit}, not {value!r}")
-    return number
-
-
-def _not_negative(argument: str, value: float) -> float:
-    number = _finite(argument, value)
-    if number < 0.0:
-        raise InvalidInput(f"{argument} must be 0 or more, not {value!r}")
-    return number
+    return read_only(2.0 * math.pi / omega)

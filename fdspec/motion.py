@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import math
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
@@ -13,6 +12,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from fdspec.checked import finite_number, positive_number
 from fdspec.errors import InvalidInput
 
 IMPLAUSIBLE_PGA: Final = 50.0
@@ -209,22 +209,3 @@ def _samples(acceleration: ArrayLike) -> NDArray[np.float64]:
         )
     samples.flags.writeable = False
     return samples
-
-
-def finite_number(argument: str, value: float) -> float:
-    """Return `value` as a float, or say which argument is no finite number."""
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise InvalidInput(f"{argument} must be a number, not {value!r}") from None
-    if not math.isfinite(number):
-        raise InvalidInput(f"{argument} must be finite, not {value!r}")
-    return number
-
-
-def positive_number(argument: str, value: float, unit: str) -> float:
-    """Return `value` as a float, or say which argument is not positive."""
-    number = finite_number(argument, value)
-    if number <= 0.0:
-        raise InvalidInput(f"{argument} must be positive, in {unit}, not {value!r}")
-    return number

@@ -9,9 +9,10 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
+from fdspec.checked import finite_number, positive_number
 from fdspec.errors import InvalidInput
 from fdspec.intensity import arias_time, velocity
-from fdspec.motion import GroundMotion, finite_number, positive_number
+from fdspec.motion import GroundMotion
 
 MAX_DENOMINATOR = 1000
 """Resampling by a ratio of whole numbers needs a filter as long as the larger of them."""
