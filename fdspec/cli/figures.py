@@ -1,11 +1,26 @@
-"""`fdspec figures`: pictures of a cube."""
+"""`fdspec figures`: the study's figures from a cube."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
 import click
 
-from fdspec.cli.output import force_option, free, made_folder, save_picture
+from fdspec.cli.output import force_option, free, made_folder, write_picture
 from fdspec.errors import InvalidInput
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from fdspec.gallery import Picture
+
+KINDS: Final = ("png", "pdf", "svg")
+
+SHEET: Final = "contact-sheet"
+
+CAPTIONS: Final = "captions.md"
 
 
 @click.command()
@@ -14,46 +29,93 @@ from fdspec.errors import InvalidInput
     "-o", "--output", default="figures", show_default=True, metavar="DIR", help="Folder; made if absent."
 )
 @click.option(
-    "--record",
-    "records",
-    multiple=True,
-    metavar="NAME",
-    help="A record of the cube; repeat it.  [default: all]",
+    "--only",
+    metavar="LIST",
+    help="The study's numbers, such as 10,11, or names of records it does not know.  [default: all]",
 )
-@click.option("--surface", is_flag=True, help="3-D surfaces, as the study has them, in place of maps.")
-@click.option("--format", "kind", type=click.Choice(["png", "pdf", "svg"]), default="png", show_default=True)
+@click.option(
+    "--format",
+    "kinds",
+    multiple=True,
+    type=click.Choice(KINDS),
+    help="Repeat it for several.  [default: png and pdf]",
+)
+@click.option("--list", "listed", is_flag=True, help="Say which figures this cube gives, and stop.")
 @force_option
-def figures(cube: str, output: str, records: tuple[str, ...], surface: bool, kind: str, force: bool) -> None:
-    """Draw peak acceleration over pretension and period: a picture a record, a panel a stiffness ratio.
+def figures(
+    cube: str, output: str, only: str | None, kinds: tuple[str, ...], listed: bool, force: bool
+) -> None:
+    """Draw the study's figures: 4 and 6 (validation), 8 and 9 (records), 10 to 18 (acceleration).
 
-    Prints the name of each picture.
+    Each of 10 to 18 shows one record, a panel a stiffness ratio: the surface over pretension and period, and
+    beside it a map. Captions name the records really used. All figures together come with a contact sheet and
+    the captions as captions.md. Prints the name of each picture.
     """
     from fdspec import store
-    from fdspec.figures import plot_acceleration_maps, plot_acceleration_surfaces
+    from fdspec.figures import plot_contact_sheet
+    from fdspec.gallery import applied_motions, chosen, study_pictures
     from fdspec.progress import progress
 
     dataset = store.open(cube)
-    known = [str(name) for name in dataset["record"].values]
-    if unknown := [name for name in records if name not in known]:
-        raise InvalidInput(f"{cube} has no record {unknown[0]!r}; it has {', '.join(known)}")
-    chosen = list(dict.fromkeys(records)) or known
+    pictures = chosen(study_pictures(dataset), _numbers(only))
+    if listed:
+        click.echo("\n".join(f"{picture.number:5} {picture.title}" for picture in pictures))
+        return
     folder = made_folder(output)
-    what = "surface" if surface else "map"
-    suffixes = (f".{kind}",)
-    paths = [folder / f"{_file_stem(name)}-acceleration-{what}.{kind}" for name in chosen]
-    for path in paths:
-        free(path, force=force, suffixes=suffixes)
-    plot = plot_acceleration_surfaces if surface else plot_acceleration_maps
-    with progress(len(chosen), "figures") as done:
-        for name, path in zip(chosen, paths, strict=True):
-            save_picture(plot(dataset, name), path)
+    kinds = tuple(dict.fromkeys(kinds)) or ("png", "pdf")
+    whole = only is None
+    paths = [[folder / f"{picture.name}.{kind}" for kind in kinds] for picture in pictures]
+    sheet = [folder / f"{SHEET}.{kind}" for kind in kinds] if whole else []
+    captions = folder / CAPTIONS
+    for path in [*(path for files in paths for path in files), *sheet, *([captions] if whole else [])]:
+        free(path, force=force, suffixes=(path.suffix,))
+    _, lost = applied_motions(dataset)
+    if lost and (only is None or {"8", "9"} & set(_numbers(only))):
+        click.echo(
+            f"fdspec: warning: figures 8 and 9 are without {', '.join(lost)}: no record found with the "
+            "cube's checksum",
+            err=True,
+        )
+    thumbnails = {}
+    with progress(len(pictures) + whole, "figures") as done:
+        for picture, files in zip(pictures, paths, strict=True):
+            encoded = _encoded(picture.draw(), kinds, thumbnail=whole)
+            thumbnails[_short(picture.number)] = encoded.get("png", b"")
+            _write(encoded, files)
             done(1)
-    click.echo("\n".join(map(str, paths)))
+        if whole:
+            title = f"The study's figures from {Path(cube).name}"
+            _write(_encoded(plot_contact_sheet(thumbnails, title=title), kinds), sheet)
+            captions.write_text(_page(pictures), encoding="utf-8")
+            done(1)
+    click.echo("\n".join(str(path) for path in [*(path for files in paths for path in files), *sheet]))
 
 
-def _file_stem(name: str) -> str:
-    """Return a record's name as part of a file's name, whatever characters it has."""
-    return (
-        "".join(letter if letter.isalnum() or letter in "-_.() " else "_" for letter in name).strip(" .")
-        or "_"
-    )
+def _encoded(figure: Figure, kinds: Sequence[str], *, thumbnail: bool = False) -> dict[str, bytes]:
+    from fdspec.figures import encode
+
+    wanted = {*kinds, "png"} if thumbnail else {*kinds}
+    return {kind: encode(figure, kind) for kind in sorted(wanted)}
+
+
+def _write(encoded: dict[str, bytes], paths: Sequence[Path]) -> None:
+    for path in paths:
+        write_picture(encoded[path.suffix.removeprefix(".")], path)
+
+
+def _short(number: str) -> str:
+    return f"Figure {number}" if number.isdigit() else number
+
+
+def _page(pictures: Sequence[Picture]) -> str:
+    """Return all captions as a page, in the figures' order."""
+    return "\n".join(f"**{picture.name}**: {picture.caption}\n" for picture in pictures)
+
+
+def _numbers(only: str | None) -> list[str]:
+    if only is None:
+        return []
+    numbers = [one.strip() for one in only.split(",") if one.strip()]
+    if not numbers:
+        raise InvalidInput(f"--only must name figures, such as 10,11; got {only!r}")
+    return numbers

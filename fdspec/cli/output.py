@@ -53,7 +53,13 @@ def made_folder(path: str | Path) -> Path:
 def save_picture(figure: Figure, path: Path) -> None:
     """Write a figure as a whole or not at all; two runs give the same bytes."""
     from fdspec.figures import encode
+
+    write_picture(encode(figure, path.suffix.lower().removeprefix(".")), path)
+
+
+def write_picture(picture: bytes, path: Path) -> None:
+    """Write the bytes of a picture as a whole or not at all."""
     from fdspec.store.replacing import replacing
 
     with replacing(path, suffixes=PICTURES) as part:
-        part.write_bytes(encode(figure, path.suffix.lower().removeprefix(".")))
+        part.write_bytes(picture)

@@ -1,18 +1,31 @@
 """Figures: a Dataset or ground motions go in, a matplotlib Figure comes out; no files, no data made here."""
 
+from fdspec.figures.contact_sheet import plot_contact_sheet
 from fdspec.figures.encoding import encode
+from fdspec.figures.energy import plot_energy
 from fdspec.figures.ensemble import plot_histories, plot_spectra
+from fdspec.figures.grazing import plot_grazing, shortest_stick
 from fdspec.figures.history import plot_history
+from fdspec.figures.hysteresis import plot_hysteresis
 from fdspec.figures.maps import plot_acceleration_maps
 from fdspec.figures.record import plot_record
-from fdspec.figures.surfaces import plot_acceleration_surfaces
+from fdspec.figures.surfaces import acceleration_caption, plot_acceleration
+from fdspec.figures.validation import plot_bare_and_damped, plot_brace_displacements
 
 __all__ = [
+    "acceleration_caption",
     "encode",
+    "plot_acceleration",
     "plot_acceleration_maps",
-    "plot_acceleration_surfaces",
+    "plot_bare_and_damped",
+    "plot_brace_displacements",
+    "plot_contact_sheet",
+    "plot_energy",
+    "plot_grazing",
     "plot_histories",
     "plot_history",
+    "plot_hysteresis",
     "plot_record",
     "plot_spectra",
+    "shortest_stick",
 ]

@@ -1,11 +1,10 @@
-"""What maps and surfaces of acceleration share: the data of one record, its scale and its title."""
+"""What pictures of peak acceleration share: the data of one record, its limits, its scale and its words."""
 
 from __future__ import annotations
 
-import math
-import textwrap
+import json
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.ticker import MaxNLocator
@@ -17,16 +16,13 @@ from fdspec.units import G
 if TYPE_CHECKING:
     import xarray as xr
 
+FloatArray = NDArray[np.float64]
+
 COLOURS = "viridis"
 """Perceptually even, safe for colour-blind eyes and in grey print."""
 
-LEVELS = 18
+LEVELS = 20
 """Steps of colour, at most."""
-
-COLUMNS = 4
-
-LETTERS_PER_INCH = 11
-"""Of matplotlib's own font at the titles' size, less a margin."""
 
 
 @dataclass(frozen=True)
@@ -34,37 +30,36 @@ class Acceleration:
     """Peak acceleration of one record in units a reader has at hand.
 
     `pretension` in kN (n_f,), `period` in s (n_t,), `peak` in g (n_sr, n_f, n_t), NaN where a history did not
-    end well.
+    end well. The limits, NaN where the cube has them not: `free` (n_t,), the damper that slides without
+    friction, and `braced` (n_sr, n_t), the damper that never slips.
     """
 
-    title: tuple[str, ...]
-    stiffness_ratio: NDArray[np.float64]
-    pretension: NDArray[np.float64]
-    period: NDArray[np.float64]
-    peak: NDArray[np.float64]
+    record: str
+    words: tuple[str, ...]
+    frame: str
+    stiffness_ratio: FloatArray
+    pretension: FloatArray
+    period: FloatArray
+    peak: FloatArray
+    free: FloatArray
+    braced: FloatArray
 
     @property
-    def levels(self) -> NDArray[np.float64]:
-        """Bounds of the colours, the same for every panel, at round numbers from zero."""
-        return np.asarray(
-            MaxNLocator(LEVELS, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, float(np.nanmax(self.peak)))
-        )
+    def levels(self) -> FloatArray:
+        """Bounds of the colours, the same for every panel and the limits, at round numbers from zero."""
+        most = max(float(np.nanmax(values)) for values in self._all if np.isfinite(values).any())
+        return np.asarray(MaxNLocator(LEVELS, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, most))
 
     @property
-    def panels(self) -> tuple[int, int]:
-        """Rows and columns of panels, one panel a stiffness ratio."""
-        n = self.stiffness_ratio.size
-        rows = math.ceil(n / COLUMNS)
-        return rows, math.ceil(n / rows)
+    def _all(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        return self.peak, self.free, self.braced
 
-    def wrapped_title(self, width: float) -> str:
-        """Return the title in lines that fit a figure of this width, in."""
-        lines = [
-            part
-            for line in self.title
-            for part in textwrap.wrap(line, int(LETTERS_PER_INCH * width), break_on_hyphens=False)
-        ]
-        return "\n".join(lines)
+    def best(self, k: int) -> tuple[FloatArray, FloatArray]:
+        """Return periods, s, and the pretension of the least acceleration at each, kN, of one panel."""
+        peak = self.peak[k]
+        known = np.isfinite(peak).any(axis=0)
+        rows = np.argmin(np.where(np.isnan(peak), np.inf, peak), axis=0)
+        return self.period[known], self.pretension[rows[known]]
 
 
 def of_record(cube: xr.Dataset, record: str) -> Acceleration:
@@ -94,21 +89,56 @@ def of_record(cube: xr.Dataset, record: str) -> Acceleration:
     if not np.isfinite(values).any():
         raise InvalidInput(f"no history of record {record!r} ended well; there is nothing to draw")
     return Acceleration(
-        title=_title(one, record),
+        record=record,
+        words=_words(one),
+        frame=_frame(cube),
         stiffness_ratio=one["stiffness_ratio"].values,
         pretension=one["pretension"].values / 1e3,
         period=one["period"].values,
         peak=values,
+        free=_limit(one, "elastic_acceleration", ("period",)),
+        braced=_limit(one, "braced_acceleration", ("stiffness_ratio", "period")),
     )
 
 
-def _title(one: xr.Dataset, record: str) -> tuple[str, ...]:
-    """Say what is drawn and which record it is really made with."""
-    lines = [f"Peak absolute acceleration of the floor, record {record}"]
+def _limit(one: xr.Dataset, name: str, dims: tuple[str, ...]) -> FloatArray:
+    if name not in one:
+        return np.full([one.sizes[dim] for dim in dims], np.nan)
+    return np.asarray(one[name].transpose(*dims).values, dtype=np.float64) / G
+
+
+def _words(one: xr.Dataset) -> tuple[str, ...]:
+    """Say which record was really used and what was done to it."""
+    words = []
     if "source" in one.coords:
-        lines.append(str(one["source"].item()))
+        words.append(str(one["source"].item()))
     if "pga" in one.coords:
         factor = one["scale_factor"].item() if "scale_factor" in one.coords else 1.0
         scaled = "" if factor == 1.0 else f", the recorded motion times {factor:.3g}"
-        lines.append(f"PGA {one['pga'].item() / G:.3g} g{scaled}")
-    return tuple(lines)
+        words.append(f"PGA {one['pga'].item() / G:.3g} g{scaled}")
+    return tuple(words)
+
+
+FRAME = {
+    "floor_mass": "floor {:,.0f} kg",
+    "brace_mass": "brace {:,.0f} kg",
+    "damping_ratio": "damping ratio {:.3g}",
+    "friction_coefficient": "friction coefficient {:.3g}",
+    "normal_force_factor": "normal force {:.3g} times the pretension",
+}
+
+
+def _frame(cube: xr.Dataset) -> str:
+    """Say which frame was swept, as far as the cube tells."""
+    told = told_parameters(cube)
+    numbers = ((form, told[name]) for name, form in FRAME.items() if isinstance(told.get(name), int | float))
+    return ", ".join(form.format(value).replace(",", " ") for form, value in numbers)
+
+
+def told_parameters(cube: xr.Dataset) -> dict[str, Any]:
+    """Return the parameters that a cube carries, empty where it carries none."""
+    try:
+        told = json.loads(str(cube.attrs.get("parameters", "{}")))
+    except json.JSONDecodeError:
+        return {}
+    return told if isinstance(told, dict) else {}

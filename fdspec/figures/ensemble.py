@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from fdspec.errors import InvalidInput
+from fdspec.figures.caption import add_caption
 from fdspec.units import G
 
 if TYPE_CHECKING:
@@ -31,14 +32,23 @@ LETTERS_PER_INCH: Final = 13
 """Of matplotlib's own font at the size of a note."""
 
 
-def plot_histories(motions: Sequence[GroundMotion], *, note: str = "") -> Figure:
+def plot_histories(
+    motions: Sequence[GroundMotion],
+    *,
+    title: str = "Ground acceleration, each over its own time",
+    note: str = "",
+    caption: str = "",
+) -> Figure:
     """Draw ground accelerations, a panel a motion, all on one scale of acceleration: the study's Figure 8.
 
     Parameters
     ----------
     motions : sequence of GroundMotion
+    title : str
     note : str
         A line below the title, such as where the motions come from.
+    caption : str
+        Words below the picture.
 
     Returns
     -------
@@ -69,11 +79,19 @@ def plot_histories(motions: Sequence[GroundMotion], *, note: str = "") -> Figure
             axis.set_ylabel("acceleration, g")
         if k + columns >= len(motions):
             axis.set_xlabel("time, s")
-    _head(figure, "Ground acceleration, each over its own time", note, width)
+    _head(figure, title, note, width)
+    add_caption(figure, caption)
     return figure
 
 
-def plot_spectra(spectra: xr.Dataset, *, quantity: str = "absolute_acceleration", note: str = "") -> Figure:
+def plot_spectra(
+    spectra: xr.Dataset,
+    *,
+    quantity: str = "absolute_acceleration",
+    title: str = "",
+    note: str = "",
+    caption: str = "",
+) -> Figure:
     """Draw elastic acceleration spectra, a line a record, and their mean: the study's Figure 9.
 
     Parameters
@@ -81,8 +99,12 @@ def plot_spectra(spectra: xr.Dataset, *, quantity: str = "absolute_acceleration"
     spectra : xarray.Dataset
         What `fdspec.spectra.elastic_spectra` returns; a panel a damping ratio.
     quantity : {"absolute_acceleration", "pseudo_acceleration"}
+    title : str
+        By default what is drawn.
     note : str
         A line below the title, such as where the motions come from.
+    caption : str
+        Words below the picture.
 
     Returns
     -------
@@ -115,7 +137,8 @@ def plot_spectra(spectra: xr.Dataset, *, quantity: str = "absolute_acceleration"
     what = quantity.replace("_", " ")
     axes[0].set_ylabel(f"peak {what}, g")
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside right center", frameon=False)
-    _head(figure, f"Elastic spectra of {what}", note, width)
+    _head(figure, title or f"Elastic spectra of {what}", note, width)
+    add_caption(figure, caption)
     return figure
 
 

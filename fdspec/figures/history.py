@@ -2,27 +2,27 @@
 
 from __future__ import annotations
 
-import textwrap
-from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
-from fdspec.errors import InvalidInput
+from fdspec.figures.storeys import (
+    BRACE,
+    FLOOR,
+    GROUND,
+    FloatArray,
+    draw_limits,
+    draw_phases,
+    slip_of,
+    storey_of,
+    title_of,
+)
 from fdspec.units import G
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
-
-FloatArray = NDArray[np.float64]
-
-FLOOR, BRACE, GROUND = "#0072B2", "#D55E00", "#E69F00"
-"""Of Okabe and Ito's palette, which colour-blind eyes can tell apart."""
-
-BANDS = ((1, "#009E73", "slips forward"), (-1, "#CC79A7", "slips backward"))
 
 
 def plot_history(history: xr.Dataset, storey: int = 1) -> Figure:
@@ -38,19 +38,16 @@ def plot_history(history: xr.Dataset, storey: int = 1) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Displacement of floor and brace (mm), friction force (kN), phase of the damper and absolute
-        acceleration (g) over time (s); friction force over slip. Lines join outputs: a smaller `dt_out`
-        of the simulation sharpens the corners of the loop.
+        Displacement of floor and brace (mm), friction force (kN) with a dot at each change of phase, phase of
+        the damper and absolute acceleration (g) over time (s); friction force over slip. Lines join outputs:
+        a smaller `dt_out` of the simulation sharpens the corners of the loop.
 
     Raises
     ------
     InvalidInput
         When the history has no such storey.
     """
-    if storey not in history["storey"].values:
-        count = history.sizes["storey"]
-        raise InvalidInput(f"storey must be from 1 to {count}, got {storey}")
-    one = history.sel(storey=storey)
+    one = storey_of(history, storey)
     time = one["time"].values
     force = one["friction_force"].values / 1e3
     figure = Figure(figsize=(11.0, 6.5), layout="constrained", dpi=150)
@@ -60,21 +57,23 @@ def plot_history(history: xr.Dataset, storey: int = 1) -> Figure:
 
     _displacement(displaced, time, one)
     held.plot(time, force, color=FLOOR, linewidth=0.8)
-    _limits(held, one)
+    draw_limits(held, one)
+    _transitions(held, history, storey, time, force)
     held.set_ylabel("friction force, kN")
-    _phase(phase, history, storey)
+    draw_phases(phase, history, storey)
     _acceleration(accelerated, time, one)
     accelerated.set_xlabel("time, s")
     accelerated.set_xlim(time[0], time[-1])
 
-    slip = (one["displacement"].values - one["brace_displacement"].values) * 1e3
-    loop.plot(slip, force, color=FLOOR, linewidth=0.8)
+    loop.plot(slip_of(one), force, color=FLOOR, linewidth=0.8)
     loop.set_xlabel("slip, floor less brace, mm")
     loop.set_ylabel("friction force, kN")
     words.set_axis_off()
-    words.legend(*phase.get_legend_handles_labels(), loc="upper left", frameon=False)
-    words.text(0.05, 0.7, _summary(history, one), va="top", transform=words.transAxes)
-    figure.suptitle(_title(history, storey), fontsize="medium")
+    handles, labels = phase.get_legend_handles_labels()
+    dots, named = held.get_legend_handles_labels()
+    words.legend(handles + dots, labels + named, loc="upper left", frameon=False)
+    words.text(0.05, 0.62, _summary(history, one), va="top", transform=words.transAxes)
+    figure.suptitle(title_of(history, "Response to", storey), fontsize="medium")
     return figure
 
 
@@ -82,55 +81,40 @@ def _displacement(axis: Axes, time: FloatArray, one: xr.Dataset) -> None:
     axis.plot(time, one["displacement"].values * 1e3, color=FLOOR, linewidth=0.8, label="floor")
     axis.plot(time, one["brace_displacement"].values * 1e3, color=BRACE, linewidth=0.6, label="brace")
     axis.set_ylabel("displacement, mm")
-    axis.legend(loc="upper right", ncols=2, frameon=False)
-    axis.margins(y=0.15)
-
-
-def _limits(axis: Axes, one: xr.Dataset) -> None:
-    """Draw the force at which slip starts, where there is one."""
-    limit = float(one["slip_force"].item()) / 1e3
-    if np.isfinite(limit):
-        for sign in (-1.0, 1.0):
-            axis.axhline(sign * limit, color="0.4", linewidth=0.6, linestyle="--")
+    _legend_above(axis)
 
 
 def _acceleration(axis: Axes, time: FloatArray, one: xr.Dataset) -> None:
     axis.plot(time, one["acceleration"].values / G, color=FLOOR, linewidth=0.8, label="floor")
     axis.plot(time, one["ground_acceleration"].values / G, color=GROUND, linewidth=0.6, label="ground")
     axis.set_ylabel("absolute acceleration, g")
-    axis.legend(loc="upper right", ncols=2, frameon=False)
-    axis.margins(y=0.15)
+    _legend_above(axis)
 
 
-def _phase(axis: Axes, history: xr.Dataset, storey: int) -> None:
-    """Colour the times of slip, from the exact instants of change."""
-    spans = list(phase_spans(history, storey))
-    for phase, colour, label in BANDS:
-        bars = [(start, stop - start) for start, stop, found in spans if found == phase]
-        axis.broken_barh(bars, (0.0, 1.0), facecolors=colour, edgecolors=colour, linewidth=0.5, label=label)
-    axis.set_ylim(0.0, 1.0)
-    axis.set_yticks([])
-    axis.set_ylabel("slip", rotation=0, ha="right", va="center")
+def _legend_above(axis: Axes) -> None:
+    """Put the legend above the axes, where no data are."""
+    axis.legend(
+        loc="lower right",
+        bbox_to_anchor=(1.0, 0.97),
+        ncols=2,
+        frameon=False,
+        borderaxespad=0.0,
+        fontsize="small",
+    )
 
 
-def phase_spans(history: xr.Dataset, storey: int) -> Iterator[tuple[float, float, int]]:
-    """Give (start, stop, phase) of each stretch of one phase of one storey, s."""
-    here = history["transition_storey"].values == storey
-    phase = int(history["phase"].sel(storey=storey).values[0])
-    start, end = float(history["time"].values[0]), float(history["time"].values[-1])
-    instants = history["transition_time"].values[here]
-    phases = history["transition_phase"].values[here]
-    for instant, after in zip(instants, phases, strict=True):
-        yield start, float(instant), phase
-        start, phase = float(instant), int(after)
-    yield start, end, phase
-
-
-def _title(history: xr.Dataset, storey: int) -> str:
-    name = str(history["record"].item()) if "record" in history.coords else "a ground motion"
-    source = str(history["source"].item()) if "source" in history.coords else ""
-    which = f", storey {storey} of {history.sizes['storey']}" if history.sizes["storey"] > 1 else ""
-    return "\n".join([f"Response to {name}{which}", *textwrap.wrap(source, 115, break_on_hyphens=False)])
+def _transitions(axis: Axes, history: xr.Dataset, storey: int, time: FloatArray, force: FloatArray) -> None:
+    """Put a dot at each change of phase; the force there is that of the samples around it."""
+    instants = history["transition_time"].values[history["transition_storey"].values == storey]
+    axis.plot(
+        instants,
+        np.interp(instants, time, force),
+        linestyle="none",
+        marker="o",
+        markersize=2.0,
+        color="black",
+        label="change of phase",
+    )
 
 
 def _summary(history: xr.Dataset, one: xr.Dataset) -> str:

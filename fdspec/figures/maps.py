@@ -1,29 +1,40 @@
-"""Peak acceleration as maps that can be read off."""
+"""Peak acceleration of one record as maps that can be read off, every stiffness ratio of a cube."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import math
+import textwrap
+from typing import TYPE_CHECKING, Final
 
-import numpy as np
-from matplotlib.cm import ScalarMappable
-from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
-from fdspec.figures.acceleration import COLOURS, of_record
+from fdspec.figures.acceleration import of_record
+from fdspec.figures.panels import at, draw_map, draw_scale
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.axes import Axes
 
-FloatArray = NDArray[np.float64]
+COLUMNS: Final = 4
+
+LEFT, RIGHT, BOTTOM, STEP, ACROSS = 0.75, 0.75, 0.3, 2.55, 2.65
+"""Margins, height and width of a panel with its labels, in."""
+
+MAP, TALL = 2.05, 1.6
+"""Width and height of a map, in."""
+
+LINE: Final = 0.19
+"""Height of a title's line, in."""
+
+LETTERS_PER_INCH: Final = 11
+"""Of matplotlib's own font at the title's size, less a margin."""
 
 
 def plot_acceleration_maps(cube: xr.Dataset, record: str) -> Figure:
     """Draw peak absolute acceleration over period and pretension, one map a stiffness ratio.
 
-    The colours mean the same in all panels. A dot at each period marks the pretension with the smallest
-    acceleration.
+    The colours mean the same in all panels. Strips below and above each map are the limits, the damper that
+    slides without friction (free) and the one that never slips (braced); the line marks the pretension with
+    the smallest acceleration at each period.
 
     Parameters
     ----------
@@ -43,50 +54,28 @@ def plot_acceleration_maps(cube: xr.Dataset, record: str) -> Figure:
         When the cube does not hold what is to be drawn.
     """
     data = of_record(cube, record)
-    rows, columns = data.panels
-    width = max(6.5, 1.1 + 2.5 * columns)
-    figure = Figure(figsize=(width, 2.0 + 2.2 * rows), layout="constrained", dpi=150)
-    axes = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
-    for axis in axes.flat[data.stiffness_ratio.size :]:
-        axis.remove()
-    for axis, ratio, peak in zip(axes.flat, data.stiffness_ratio, data.peak, strict=False):
-        masked = np.ma.masked_invalid(peak)
-        axis.contourf(data.period, data.pretension, masked, levels=data.levels, cmap=COLOURS)
-        axis.contour(data.period, data.pretension, masked, levels=data.levels, colors="white", linewidths=0.3)
-        _mark_best(axis, data.period, data.pretension, peak)
-        axis.set_title(f"stiffness ratio {ratio:g}", fontsize="medium")
-    for axis in axes.flat[: data.stiffness_ratio.size]:
-        place = axis.get_subplotspec()
-        if place.is_first_col():
-            axis.set_ylabel("pretension, kN")
-        if place.is_last_row() or axes[-1, place.colspan.start].figure is None:
-            axis.set_xlabel("period without brace, s")
-            axis.tick_params(labelbottom=True)
-    figure.suptitle(data.wrapped_title(width), fontsize="medium")
-    colours = ScalarMappable(BoundaryNorm(data.levels, 256), COLOURS)
-    figure.colorbar(
-        colours, ax=figure.axes, label="peak absolute acceleration, g", ticks=data.levels[::2], aspect=35
-    )
-    figure.legend(
-        *axes[0, 0].get_legend_handles_labels(), loc="outside lower center", frameon=False, markerscale=2
-    )
+    count = data.stiffness_ratio.size
+    rows = math.ceil(count / COLUMNS)
+    columns = math.ceil(count / rows)
+    width = LEFT + columns * ACROSS + RIGHT
+    lines = [f"Peak absolute acceleration of the floor, record {record}", *data.words]
+    title = [
+        part
+        for line in lines
+        for part in textwrap.wrap(line, int(LETTERS_PER_INCH * width), break_on_hyphens=False)
+    ]
+    top = 0.2 + LINE * len(title)
+    tall = BOTTOM + rows * STEP + top
+    figure = Figure(figsize=(width, tall), dpi=150)
+    for k in range(count):
+        row, column = divmod(k, columns)
+        bottom = BOTTOM + (rows - 1 - row) * STEP
+        axis = at(figure, LEFT + column * ACROSS, bottom + 0.5, MAP, TALL)
+        draw_map(axis, data, k)
+        axis.set_title(f"stiffness ratio {data.stiffness_ratio[k]:g}", fontsize=9, pad=18)
+    high = min(rows * STEP - 0.5, 4.5)
+    draw_scale(figure, data, width - RIGHT + 0.05, BOTTOM + 0.5 * (rows * STEP - high), high)
+    figure.suptitle("\n".join(title), y=1.0 - 0.1 / tall, fontsize=10, va="top")
+    handles, labels = figure.axes[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="lower center", frameon=False, fontsize=9)
     return figure
-
-
-def _mark_best(axis: Axes, period: FloatArray, pretension: FloatArray, peak: FloatArray) -> None:
-    """Put a dot at each period where acceleration is smallest; dots on the edge stay whole."""
-    known = np.isfinite(peak).any(axis=0)
-    best = pretension[np.argmin(np.where(np.isnan(peak), np.inf, peak), axis=0)]
-    axis.plot(
-        period[known],
-        best[known],
-        linestyle="none",
-        marker="o",
-        markersize=2.5,
-        markerfacecolor="white",
-        markeredgecolor="black",
-        markeredgewidth=0.4,
-        clip_on=False,
-        zorder=5,
-        label="pretension of the smallest acceleration at each period",
-    )

@@ -1,6 +1,9 @@
 """`fdspec figures` and `fdspec export`: what they write, and what they leave alone."""
 
 import csv
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +15,7 @@ from fdspec.cli import main
 from fdspec.cli.output import free, save_picture
 from fdspec.errors import StoreError
 from fdspec.figures import plot_acceleration_maps
+from fdspec.records import load_record
 from tests.cubes import synthetic_cube
 
 SIGNATURES = {"png": b"\x89PNG", "pdf": b"%PDF", "svg": b"<?xml"}
@@ -24,7 +28,9 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     cube = synthetic_cube(["FSR1", "odd/name"], (2, 3, 4))
     cube["peak_acceleration"].values[:] = np.abs(cube["peak_acceleration"].values)
     cube["status"].values[:] = 0
-    store.save(cube, "cube.nc")
+    motion = load_record("FSR1")
+    told = {"checksum": [motion.checksum, "of another"], "source": [motion.source, "nowhere.txt"]}
+    store.save(cube.assign_coords({name: ("record", values) for name, values in told.items()}), "cube.nc")
     return tmp_path
 
 
@@ -41,36 +47,84 @@ def names(folder: Path) -> set[str]:
 
 
 @pytest.mark.parametrize("kind", SIGNATURES)
-def test_a_picture_for_each_record(folder: Path, kind: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["figures", "cube.nc", "-o", "pictures", "--format", kind]) == 0
+def test_a_picture_of_each_kind(folder: Path, kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["figures", "cube.nc", "-o", "pictures", "--format", kind, "--only", "10, odd/name"]) == 0
     printed = [Path(line) for line in capsys.readouterr().out.splitlines()]
-    wanted = [f"FSR1-acceleration-map.{kind}", f"odd_name-acceleration-map.{kind}"]
+    wanted = [f"figure-10-FSR1.{kind}", f"record-odd_name.{kind}"]
     assert [path.name for path in printed] == wanted
     assert names(folder / "pictures") == set(wanted)
     assert all(path.read_bytes().startswith(SIGNATURES[kind]) for path in printed)
 
 
-def test_surfaces_of_one_record(folder: Path) -> None:
-    assert main(["figures", "cube.nc", "--surface", "--record", "FSR1"]) == 0
-    assert names(folder / "figures") == {"FSR1-acceleration-surface.png"}
+def test_all_figures_come_with_a_sheet_and_captions(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["figures", "cube.nc", "-o", "pictures", "--format", "pdf"]) == 0
+    told = capsys.readouterr()
+    stems = [
+        *("figure-04-additional-frame", "figure-06-four-storeys", "figure-08-records", "figure-09-spectra"),
+        *("figure-10-FSR1", "record-odd_name", "contact-sheet"),
+    ]
+    assert [Path(line).name for line in told.out.splitlines()] == [f"{stem}.pdf" for stem in stems]
+    assert names(folder / "pictures") == {*(f"{stem}.pdf" for stem in stems), "captions.md"}
+    assert told.err == (
+        "fdspec: warning: figures 8 and 9 are without odd/name: no record found with the cube's checksum\n"
+    )
+    captions = (folder / "pictures" / "captions.md").read_text(encoding="utf-8")
+    assert [line.split("**")[1] for line in captions.splitlines() if line] == stems[:-1]
+    motion = load_record("FSR1")
+    (eighth,) = [line for line in captions.splitlines() if "**figure-08" in line]
+    assert motion.source.removeprefix("stand-in for the study's FSR1: ") in eighth
+    assert f"times {motion.scale_factor:.3g}." in eighth
+
+
+def test_both_kinds_unless_one_is_asked_for(folder: Path) -> None:
+    assert main(["figures", "cube.nc", "--only", "10"]) == 0
+    assert names(folder / "figures") == {"figure-10-FSR1.png", "figure-10-FSR1.pdf"}
+
+
+def test_the_script_makes_the_same_bytes_in_another_process(folder: Path) -> None:
+    assert main(["figures", "cube.nc", "-o", "a", "--only", "10"]) == 0
+    script = Path(__file__).parents[2] / "scripts" / "make_figures.py"
+    done = subprocess.run(
+        [sys.executable, str(script), "cube.nc", "-o", "b", "--only", "10"],
+        check=True,
+        capture_output=True,
+        text=True,
+        env={**os.environ, "PYTHONPATH": str(script.parents[1])},
+    )
+    assert done.stdout.splitlines() == ["b/figure-10-FSR1.png", "b/figure-10-FSR1.pdf"]
+    for kind in ("png", "pdf"):
+        name = f"figure-10-FSR1.{kind}"
+        assert (folder / "a" / name).read_bytes() == (folder / "b" / name).read_bytes()
+
+
+def test_the_figures_are_listed(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["figures", "cube.nc", "--list"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines] == ["4", "6", "8", "9", "10", "odd/name"]
+    assert names(folder) == {"cube.nc"}
 
 
 def test_a_picture_that_exists_is_kept_unless_forced(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    mine = folder / "figures" / "odd_name-acceleration-map.png"
+    mine = folder / "figures" / "figure-10-FSR1.pdf"
     mine.parent.mkdir()
     mine.write_text("mine")
-    assert "--force" in refused(capsys, "figures", "cube.nc")
+    assert "--force" in refused(capsys, "figures", "cube.nc", "--only", "10")
     assert names(folder / "figures") == {mine.name}
     assert mine.read_text() == "mine"
-    assert main(["figures", "cube.nc", "--force"]) == 0
-    assert mine.read_bytes().startswith(b"\x89PNG")
+    assert main(["figures", "cube.nc", "--only", "10", "--format", "pdf", "--force"]) == 0
+    assert mine.read_bytes().startswith(b"%PDF")
 
 
-def test_a_record_that_the_cube_has_not(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    err = refused(capsys, "figures", "cube.nc", "--record", "FSR2")
-    assert "cube.nc has no record 'FSR2'; it has FSR1, odd/name" in err
+@pytest.mark.parametrize("only", ["11", "10,FSR2", "10, 7"])
+def test_a_figure_that_the_cube_does_not_give(
+    folder: Path, only: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    wrong = only.rpartition(",")[2].strip()
+    err = refused(capsys, "figures", "cube.nc", "--only", only)
+    assert f"there is no figure '{wrong}'; this cube gives 4, 6, 8, 9, 10, odd/name" in err
+    assert "--only must name figures" in refused(capsys, "figures", "cube.nc", "--only", ",")
     assert names(folder) == {"cube.nc"}
 
 

@@ -7,16 +7,21 @@ import sys
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
 from fdspec.errors import InvalidInput
-from fdspec.figures import plot_acceleration_maps, plot_acceleration_surfaces, plot_history
-from fdspec.figures.history import phase_spans
+from fdspec.figures import acceleration_caption, plot_acceleration, plot_acceleration_maps, plot_history
+from fdspec.figures.panels import BEST, HEIGHT
+from fdspec.figures.storeys import phase_spans
 from fdspec.units import G
 from tests.cubes import synthetic_cube, synthetic_history
 
 SHAPE = (5, 4, 6)
+
+RATIOS = np.array([0.5, 1.0, 2.0, 4.0, 8.0])
 
 
 @pytest.fixture
@@ -49,20 +54,70 @@ def png(figure: Figure) -> bytes:
     return file.getvalue()
 
 
-BOTH = pytest.mark.parametrize("plot", [plot_acceleration_maps, plot_acceleration_surfaces])
+BOTH = pytest.mark.parametrize("plot", [plot_acceleration_maps, plot_acceleration])
 
 
-@BOTH
-def test_a_panel_for_each_stiffness_ratio(plot, cube: xr.Dataset) -> None:
-    assert titles(plot(cube, "FSR1")) == [f"stiffness ratio {x:g}" for x in cube["stiffness_ratio"].values]
+def maps(figure: Figure) -> list:
+    """Return the axes of the maps, without surfaces, strips and scale."""
+    return [axis for axis in figure.axes if axis.get_ylabel() == "pretension, kN" and axis.name != "3d"]
 
 
-@BOTH
-def test_the_title_names_the_record_really_used(plot, cube: xr.Dataset) -> None:
+def surfaces(figure: Figure) -> list:
+    return [axis for axis in figure.axes if axis.name == "3d"]
+
+
+def strips(axis) -> dict:
+    return {child.get_label(): child for child in axis.child_axes}
+
+
+def _idle(figure: Figure) -> list[Text]:
+    """Return the numbers of axes in space that lie beyond their limits, which are kept but not drawn."""
+    axes = [axis for space in surfaces(figure) for axis in (space.xaxis, space.yaxis, space.zaxis)]
+    return [
+        label
+        for axis in axes
+        for tick in axis.get_major_ticks()
+        if not min(axis.get_view_interval()) - 1e-9 <= tick.get_loc() <= max(axis.get_view_interval()) + 1e-9
+        for label in (tick.label1, tick.label2)
+    ]
+
+
+def overlapping(figure: Figure) -> list[tuple[str, str]]:
+    """Return the pairs of texts that stand on each other, and (text, "edge") for those that the page cuts."""
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    texts = [text for text in figure.findobj(Text) if text.get_visible() and text.get_text().strip()]
+    texts = [text for text in texts if not any(text is idle for idle in _idle(figure))]
+    drawn = [(text.get_text(), text.get_window_extent(canvas.get_renderer())) for text in texts]
+    slanted = {
+        text.get_text() for text in texts if text.get_rotation() % 90.0
+    }  # their boxes are mostly empty
+    drawn = [(text, box) for text, box in drawn if box.width > 0.0]
+    page = figure.bbox
+    cut = [
+        (text, "edge")
+        for text, box in drawn
+        if box.x0 < page.x0 or box.x1 > page.x1 or box.y0 < page.y0 or box.y1 > page.y1
+    ]
+    shrunk = [(text, box.padded(-1.0)) for text, box in drawn if text not in slanted and box.width > 2.0]
+    return cut + [
+        (one, other)
+        for k, (one, a) in enumerate(shrunk)
+        for other, b in shrunk[k + 1 :]
+        if a.x0 < b.x1 and b.x0 < a.x1 and a.y0 < b.y1 and b.y0 < a.y1
+    ]
+
+
+def test_maps_have_a_panel_for_each_stiffness_ratio(cube: xr.Dataset) -> None:
+    ratios = [f"stiffness ratio {x:g}" for x in cube["stiffness_ratio"].values]
+    assert titles(plot_acceleration_maps(cube, "FSR1")) == ratios
+
+
+def test_the_title_of_maps_names_the_record_really_used(cube: xr.Dataset) -> None:
     cube["source"] = ("record", ["another", "stand-in for the study's FHR1: Loma Prieta"])
     cube["pga"].values[1] = 0.41 * G
     cube["scale_factor"].values[1] = 0.993
-    lines = plot(cube, "FHR1").get_suptitle().splitlines()
+    lines = plot_acceleration_maps(cube, "FHR1").get_suptitle().splitlines()
     assert lines == [
         "Peak absolute acceleration of the floor, record FHR1",
         "stand-in for the study's FHR1: Loma Prieta",
@@ -70,27 +125,37 @@ def test_the_title_names_the_record_really_used(plot, cube: xr.Dataset) -> None:
     ]
 
 
-@BOTH
+def test_the_caption_names_the_record_really_used_and_the_frame(cube: xr.Dataset) -> None:
+    cube["source"] = ("record", ["another", "stand-in for the study's FHR1: Loma Prieta"])
+    cube["pga"].values[1] = 0.41 * G
+    cube["scale_factor"].values[1] = 0.993
+    cube.attrs["parameters"] = '{"floor_mass": 20000.0, "damping_ratio": 0.05, "period": [0.1, 0.2]}'
+    words = acceleration_caption(cube, "FHR1")
+    used = "stand-in for the study's FHR1: Loma Prieta; PGA 0.41 g, the recorded motion times 0.993"
+    assert f"ground motion FHR1 ({used}). Frame: floor 20 000 kg, damping ratio 0.05." in words
+    figure = plot_acceleration(cube, "FHR1", caption=words)
+    below = figure.texts[-1]
+    assert below.get_text().replace("\n", " ") == words
+    figure.savefig(io.BytesIO())
+    assert below.get_window_extent().y1 < min(axis.get_tightbbox().y0 for axis in maps(figure))
+
+
 @pytest.mark.parametrize("panels", [1, 2, 5])
-def test_a_long_title_fits_the_picture(plot, cube: xr.Dataset, panels: int) -> None:
+def test_a_long_title_fits_the_maps(cube: xr.Dataset, panels: int) -> None:
     cube["source"] = ("record", ["rotated from 000 and 090: fault-normal is 038, " * 4] * 2)
-    figure = plot(cube.isel(stiffness_ratio=slice(0, panels)), "FSR1")
-    png(figure)  # lays it out
-    box = figure.texts[0].get_window_extent()
-    assert box.x0 >= 0.0
-    assert box.x1 <= figure.bbox.x1
-    assert max(axis.get_tightbbox().y1 for axis in figure.axes[:panels]) <= box.y0
+    assert not overlapping(plot_acceleration_maps(cube.isel(stiffness_ratio=slice(0, panels)), "FSR1"))
 
 
 @BOTH
 def test_a_record_as_recorded_is_not_said_to_be_scaled(plot, cube: xr.Dataset) -> None:
     cube["scale_factor"].values[:] = 1.0
     assert "times" not in plot(cube, "FSR1").get_suptitle()
+    assert "motion times" not in acceleration_caption(cube, "FSR1")
 
 
 @BOTH
 def test_colours_carry_their_unit(plot, cube: xr.Dataset) -> None:
-    assert plot(cube, "FSR1").axes[-1].get_ylabel().endswith("peak absolute acceleration, g")
+    assert plot(cube, "FSR1").axes[-1].get_ylabel() == "peak absolute acceleration, g"
 
 
 @BOTH
@@ -124,65 +189,169 @@ def test_an_infinite_pretension_is_left_out(plot, cube: xr.Dataset) -> None:
     assert png(limit) == png(plot(cube.isel(pretension=slice(0, -1)), "FSR1"))
 
 
-def test_maps_share_one_scale_from_zero_to_above_the_largest(cube: xr.Dataset) -> None:
-    figure = plot_acceleration_maps(cube, "FSR1")
-    levels = [axis.collections[0].levels for axis in figure.axes[: SHAPE[0]]]
-    largest = cube["peak_acceleration"].sel(record="FSR1").max().item() / G
+def smooth() -> xr.Dataset:
+    """Give a cube on the study's grid whose values look like spectra, for pictures to be laid out."""
+    ratio, force, period = np.meshgrid(
+        [0.5, 1.0, 2.0, 4.0, 8.0, 10.0], np.linspace(10e3, 1010e3, 11), 0.05 * np.arange(1, 61), indexing="ij"
+    )
+    spectrum = (1.0 + np.sin(9.0 * period)) * np.exp(-period) + 0.2
+    peak = G * spectrum * (1.0 + 0.1 * ratio * np.abs(force / 1e6 - 0.2))
+    made = synthetic_cube(["FSR1", "FHR1"], peak.shape)
+    made["peak_acceleration"].values[:] = peak
+    made["elastic_acceleration"].values[:] = G * spectrum[0, 0]
+    made["braced_acceleration"].values[:] = 1.2 * G * spectrum[:, 0]
+    made["status"].values[:] = 0
+    ratios = np.array([0.5, 1.0, 2.0, 4.0, 8.0, 10.0])
+    return made.assign_coords(stiffness_ratio=ratios, pga=("record", [0.345 * G, 0.41 * G]))
+
+
+@BOTH
+def test_no_words_stand_on_others_or_are_cut(plot) -> None:
+    study = smooth()
+    more = {} if plot is plot_acceleration_maps else {"caption": acceleration_caption(study, "FSR1")}
+    assert not overlapping(plot(study, "FSR1", **more))
+
+
+@BOTH
+def test_maps_share_one_scale_from_zero_to_above_the_largest(plot, cube: xr.Dataset) -> None:
+    cube["braced_acceleration"].values[0, 0, 0] = 1.9 * G
+    figure = plot(cube.assign_coords(stiffness_ratio=RATIOS), "FSR1")
+    levels = [axis.collections[0].levels for axis in maps(figure)]
+    levels += [strip.collections[0].levels for axis in maps(figure) for strip in axis.child_axes]
     assert levels[0][0] == 0.0
-    assert levels[0][-2] < largest <= levels[0][-1]
+    assert levels[0][-2] < 1.9 <= levels[0][-1]
     assert all(np.array_equal(one, levels[0]) for one in levels)
 
 
-def test_maps_span_the_axes_in_seconds_and_kilonewtons(cube: xr.Dataset) -> None:
-    figure = plot_acceleration_maps(cube, "FSR1")
-    first, *_, last = figure.axes[: SHAPE[0]]
-    assert first.get_xlim() == (cube["period"].values[0], cube["period"].values[-1])
-    assert first.get_ylim() == (cube["pretension"].values[0] / 1e3, cube["pretension"].values[-1] / 1e3)
-    assert first.get_ylabel() == "pretension, kN"
-    assert last.get_xlabel() == "period without brace, s"
+@BOTH
+def test_maps_span_the_axes_in_seconds_and_kilonewtons(plot, cube: xr.Dataset) -> None:
+    drawn = maps(plot(cube.assign_coords(stiffness_ratio=RATIOS), "FSR1"))
+    assert len(drawn) == 5
+    for axis in drawn:
+        assert axis.get_xlim() == (cube["period"].values[0], cube["period"].values[-1])
+        assert axis.get_ylim() == (cube["pretension"].values[0] / 1e3, cube["pretension"].values[-1] / 1e3)
+        assert [text.get_text() for text in axis.texts if "period" in text.get_text()] == [
+            "period without brace, s"
+        ]
 
 
-def test_every_column_of_maps_has_its_periods_below(cube: xr.Dataset) -> None:
-    """Five panels stand in rows of three and two: the last column ends in the first row."""
-    figure = plot_acceleration_maps(cube, "FSR1")
-    png(figure)  # lays it out
-    below = [bool(axis.get_xlabel()) for axis in figure.axes[:5]]
-    assert below == [False, False, True, True, True]
-    ticked = [any(label.get_visible() for label in axis.get_xticklabels()) for axis in figure.axes[:5]]
-    assert ticked == below
+@BOTH
+def test_maps_are_filled_with_the_cube_in_g(plot, cube: xr.Dataset) -> None:
+    """A cube that is flat but for one panel fills each map with the one field its value lies in."""
+    for k, value in enumerate((0.35, 0.55, 0.75, 0.95, 1.15)):
+        cube["peak_acceleration"].values[0, k] = value * G
+    for name in ("elastic_acceleration", "braced_acceleration"):
+        cube[name].values[:] = 1.3 * G
+    figure = plot(cube.assign_coords(stiffness_ratio=RATIOS), "FSR1")
+    for axis, value in zip(maps(figure), (0.35, 0.55, 0.75, 0.95, 1.15), strict=True):
+        filled = axis.collections[0]
+        fields = [k for k, path in enumerate(filled.get_paths()) if len(path.vertices)]
+        (field,) = fields
+        assert filled.levels[field] <= value < filled.levels[field + 1]
 
 
-def test_dots_mark_the_pretension_of_the_smallest_acceleration(cube: xr.Dataset) -> None:
+@BOTH
+def test_strips_carry_the_limits_of_the_free_and_the_braced_frame(plot, cube: xr.Dataset) -> None:
+    cube["elastic_acceleration"].values[:] = 0.25 * G
+    cube["braced_acceleration"].values[:] = np.array([0.45, 0.65, 0.85, 1.05, 1.15])[:, None] * G
+    figure = plot(cube.assign_coords(stiffness_ratio=RATIOS), "FSR1")
+    for axis, braced in zip(maps(figure), (0.45, 0.65, 0.85, 1.05, 1.15), strict=True):
+        found = strips(axis)
+        assert set(found) == {"free", "braced"}
+        assert found["free"].get_position().y1 <= axis.get_position().y0
+        assert found["braced"].get_position().y0 >= axis.get_position().y1
+        for name, value in (("free", 0.25), ("braced", braced)):
+            strip = found[name]
+            (field,) = [k for k, path in enumerate(strip.collections[0].get_paths()) if len(path.vertices)]
+            low, high = strip.collections[0].levels[field : field + 2]
+            assert low <= value < high
+            assert strip.get_xlim() == axis.get_xlim()
+            assert [label.get_text() for label in strip.get_yticklabels()] == [name]
+
+
+@BOTH
+def test_a_cube_without_limits_has_no_strips(plot, cube: xr.Dataset) -> None:
+    bare = cube.drop_vars(["elastic_acceleration", "braced_acceleration"])
+    assert all(not axis.child_axes for axis in maps(plot(bare, "FSR1")))
+
+
+@BOTH
+def test_a_line_marks_the_pretension_of_the_smallest_acceleration(plot, cube: xr.Dataset) -> None:
+    cube = cube.assign_coords(stiffness_ratio=RATIOS)
     peak = cube["peak_acceleration"].sel(record="FSR1")
     cube["status"].loc[{"record": "FSR1"}].values[0, :, 2] = 1
-    figure = plot_acceleration_maps(cube, "FSR1")
-    for index, axis in enumerate(figure.axes[: SHAPE[0]]):
-        (dots,) = axis.get_lines()
+    for index, axis in enumerate(maps(plot(cube, "FSR1"))):
+        (line,) = axis.get_lines()
         best = cube["pretension"].values[peak[index].argmin("pretension").values] / 1e3
         known = np.arange(SHAPE[2]) != 2 if index == 0 else np.full(SHAPE[2], True)
-        assert np.array_equal(dots.get_xdata(), cube["period"].values[known])
-        assert np.array_equal(dots.get_ydata(), best[known])
-    assert [text.get_text() for text in figure.legends[0].get_texts()] == [
-        "pretension of the smallest acceleration at each period"
-    ]
+        assert np.array_equal(line.get_xdata(), cube["period"].values[known])
+        assert np.array_equal(line.get_ydata(), best[known])
+        assert line.get_label() == BEST
+
+
+def test_maps_say_what_the_line_is(cube: xr.Dataset) -> None:
+    (legend,) = plot_acceleration_maps(cube, "FSR1").legends
+    assert [text.get_text() for text in legend.get_texts()] == [BEST]
+
+
+def test_values_at_lines_keep_apart_and_off_the_edges() -> None:
+    for axis in maps(plot_acceleration(smooth(), "FSR1")):
+        (x0, x1), (y0, y1) = axis.get_xlim(), axis.get_ylim()
+        values = [text for text in axis.texts if "period" not in text.get_text()]
+        at = [
+            ((t.get_position()[0] - x0) / (x1 - x0), (t.get_position()[1] - y0) / (y1 - y0)) for t in values
+        ]
+        assert all(0.05 < x < 0.95 and 0.05 < y < 0.95 for x, y in at)
+        assert all(
+            abs(a - c) >= 0.12 or abs(b - d) >= 0.12 for k, (a, b) in enumerate(at) for c, d in at[k + 1 :]
+        )
+
+
+def test_surfaces_are_the_study_s_panels(cube: xr.Dataset) -> None:
+    more = cube.isel(stiffness_ratio=[0, 1, 2, 3, 4, 0, 1]).assign_coords(
+        stiffness_ratio=[0.5, 1.0, 2.0, 4.0, 6.0, 8.0, 10.0]
+    )
+    figure = plot_acceleration(more, "FSR1")
+    told = [text.get_text() for text in figure.texts if text.get_text().startswith("SR")]
+    assert told == [f"SR = {ratio}" for ratio in ("0.5", "1", "2", "4", "8", "10")]
+    assert len(surfaces(figure)) == len(maps(figure)) == 6
+    some = plot_acceleration(more, "FSR1", stiffness_ratios=[6.0])
+    assert [text.get_text() for text in some.texts if text.get_text().startswith("SR")] == ["SR = 6"]
+
+
+def test_stiffness_ratios_that_are_not_there(cube: xr.Dataset) -> None:
+    with pytest.raises(InvalidInput, match="the cube has no stiffness_ratio 3; it has 0.5, "):
+        plot_acceleration(cube, "FSR1", stiffness_ratios=[0.5, 3.0])
+    with pytest.raises(InvalidInput, match="must name one or more"):
+        plot_acceleration(cube, "FSR1", stiffness_ratios=[])
+
+
+def test_a_surface_stands_left_of_its_map(cube: xr.Dataset) -> None:
+    figure = plot_acceleration(cube.assign_coords(stiffness_ratio=RATIOS), "FSR1")
+    for space, chart in zip(surfaces(figure), maps(figure), strict=True):
+        assert space.get_position().x1 <= chart.get_position().x0
+        assert abs(space.get_position().y0 - chart.get_position().y0) < 0.08
 
 
 def test_surfaces_share_height_and_say_their_units(cube: xr.Dataset) -> None:
-    figure = plot_acceleration_surfaces(cube, "FSR1")
-    panels = figure.axes[: SHAPE[0]]
+    figure = plot_acceleration(cube.assign_coords(stiffness_ratio=RATIOS), "FSR1")
+    panels = surfaces(figure)
     assert len({axis.get_zlim() for axis in panels}) == 1
-    assert panels[0].get_zlim()[0] == 0.0
+    assert panels[0].get_zlim() == (0.0, maps(figure)[0].collections[0].levels[-1])
     assert {axis.get_xlabel() for axis in panels} == {"period, s"}
     assert {axis.get_ylabel() for axis in panels} == {"pretension, kN"}
+    assert all(HEIGHT in [text.get_text() for text in axis.texts] for axis in panels)
+    assert HEIGHT.endswith(", g")
 
 
-def test_surfaces_are_coloured_on_one_scale(cube: xr.Dataset) -> None:
-    figure = plot_acceleration_surfaces(cube, "FSR1")
-    surfaces = [axis.collections[0] for axis in figure.axes[: SHAPE[0]]]
-    assert all(isinstance(surface, PolyCollection) for surface in surfaces)
-    assert len({(surface.norm.vmin, surface.norm.vmax) for surface in surfaces}) == 1
-    assert surfaces[0].norm.vmin == 0.0
-    assert surfaces[0].norm.vmax == pytest.approx(1.2)
+def test_surfaces_are_coloured_by_their_height_on_one_scale(cube: xr.Dataset) -> None:
+    figure = plot_acceleration(cube.assign_coords(stiffness_ratio=RATIOS), "FSR1")
+    peak = cube["peak_acceleration"].sel(record="FSR1").values / G
+    for axis, values in zip(surfaces(figure), peak, strict=True):
+        (surface,) = [one for one in axis.collections if isinstance(one, PolyCollection)]
+        assert (surface.norm.vmin, surface.norm.vmax) == axis.get_zlim()
+        cells = 0.25 * (values[1:, 1:] + values[1:, :-1] + values[:-1, 1:] + values[:-1, :-1])
+        np.testing.assert_allclose(np.sort(surface.get_array()), np.sort(cells.ravel()), rtol=1e-12)
 
 
 def test_phase_spans_are_the_exact_instants_of_one_storey(history: xr.Dataset) -> None:
@@ -214,9 +383,16 @@ def test_history_draws_one_storey_in_readable_units(history: xr.Dataset) -> None
 
 def test_history_draws_the_slip_force_where_it_is_finite(history: xr.Dataset) -> None:
     history["slip_force"].values[:] = [50e3, np.inf]
-    limits = [line.get_ydata()[0] for line in plot_history(history, 1).axes[1].lines[1:]]
+    limits = [line.get_ydata()[0] for line in plot_history(history, 1).axes[1].lines[1:3]]
     assert limits == [-50.0, 50.0]
-    assert len(plot_history(history, 2).axes[1].lines) == 1
+    assert [line.get_label() for line in plot_history(history, 2).axes[1].lines][1:] == ["change of phase"]
+
+
+def test_history_marks_each_change_of_phase_at_its_instant(history: xr.Dataset) -> None:
+    history["friction_force"].values[:, 0] = 1e3 * history["time"].values  # N, so that kN are seconds
+    dots = plot_history(history, 1).axes[1].lines[-1]
+    assert dots.get_xdata().tolist() == [0.05, 0.2, 0.3]
+    assert dots.get_ydata() == pytest.approx([0.05, 0.2, 0.3])
 
 
 def test_history_colours_slip_by_its_direction(history: xr.Dataset) -> None:

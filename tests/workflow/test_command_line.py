@@ -65,7 +65,9 @@ def test_from_study_to_cube_to_pictures_and_export(folder: Path, capsys: pytest.
     peak = cube["peak_acceleration"].sel(record="FSR1") / G
     (row,) = [line.split() for line in out.splitlines() if line.startswith("FSR1")]
     assert row[1:4] == ["0.345", f"{peak.min().item():.3f}", f"{peak.max().item():.3f}"]
-    assert done(capsys, "figures", "mine.nc", "--record", "mine") == "figures/mine-acceleration-map.png\n"
+    assert done(capsys, "figures", "mine.nc", "--only", "mine") == (
+        "figures/record-mine.png\nfigures/record-mine.pdf\n"
+    )
     assert done(capsys, "export", "mine.nc", "--record", "FSR1", "-o", "fsr1.csv") == "fsr1.csv\n"
     assert names(folder) == {"mine.txt", "mine.toml", "mine.nc", "figures", "fsr1.csv"}
 
