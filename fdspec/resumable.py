@@ -151,8 +151,7 @@ def _agreed(path: Path, identity: Mapping[str, Any]) -> Blocks:
     told = differences(held, identity)
     if told:
         raise StoreError(
-            f"{path} holds another sweep: {'; '.join(told)}; name another store, or start over "
-            "with --restart (restart=True)"
+            f"{path} holds another sweep: {'; '.join(told)}; name another store, or start over (restart)"
         )
     return blocks
 

@@ -14,7 +14,11 @@ COMMANDS = {
     "records": ("fdspec.cli.records:records", "List, show, check, convert and draw ground motions."),
     "figures": ("fdspec.cli.figures:figures", "Draw the study's figures."),
     "claims": ("fdspec.cli.claims:claims", "Put the study's conclusions to a cube."),
-    "export": ("fdspec.cli.export:export", "Write one record of a cube for other programs (netCDF, CSV)."),
+    "explore": ("fdspec.cli.explore:explore", "Show a cube in the browser, with histories at a click."),
+    "export": (
+        "fdspec.cli.export:export",
+        "Write a cube for other programs (netCDF, CSV) or as a page (HTML).",
+    ),
 }
 
 

@@ -1,27 +1,62 @@
-"""`fdspec export`: one record of a cube, for programs that want less than a cube."""
+"""`fdspec export`: one record of a cube, for programs that want less than a cube, or the cube as a page."""
 
 from __future__ import annotations
+
+from pathlib import Path
 
 import click
 
 from fdspec.cli.output import force_option, free
+from fdspec.errors import InvalidInput
+
+PAGES = (".html", ".htm")
 
 
 @click.command()
 @click.argument("cube", metavar="CUBE.nc")
+@click.option("-o", "--output", metavar="FILE", help="What to write; .nc, .csv or .html says the form.")
 @click.option(
-    "-o", "--output", required=True, metavar="FILE", help="What to write; .nc or .csv says the form."
+    "--html",
+    "page",
+    is_flag=True,
+    help="Write a page for the browser, all records in it unless --record names one; CUBE.html without -o.",
 )
 @click.option("--record", metavar="NAME", help="The record; may be left out where the cube has one.")
 @force_option
-def export(cube: str, output: str, record: str | None, force: bool) -> None:
-    """Write one record of a cube for other programs.
+def export(cube: str, output: str | None, page: bool, record: str | None, force: bool) -> None:
+    """Write one record of a cube for other programs, or a cube as a page.
 
     FILE.nc holds it over stiffness ratio, pretension and period, for ParaView, CDO and others that take three
-    axes. FILE.csv has a row for each cell, below lines with # that tell units and origin.
+    axes. FILE.csv has a row for each cell, below lines with # that tell units and origin. FILE.html shows
+    maps, surfaces and the best pretension in any browser, without a server; histories need `fdspec explore`.
     """
     from fdspec import store
 
-    path = free(output, force=force, suffixes=(".nc", ".csv"))
-    store.export(store.open(cube), path, record=record)
+    if output is not None and Path(output).suffix.lower() in PAGES:
+        page = True
+    if page:
+        path = free(output or f"{Path(cube).stem}.html", force=force, suffixes=PAGES)
+        _write_page(cube, path, record)
+    elif output is None:
+        raise click.UsageError("Give -o FILE.nc or -o FILE.csv, or --html.")
+    else:
+        path = free(output, force=force, suffixes=(".nc", ".csv", *PAGES))
+        store.export(store.open(cube), path, record=record)
     click.echo(f"{path}")
+
+
+def _write_page(cube: str, path: Path, record: str | None) -> None:
+    from fdspec import store
+
+    try:
+        from fdspec.explore.content import Content
+        from fdspec.explore.page import write_page
+    except ModuleNotFoundError as error:
+        raise InvalidInput(f"a page needs {error.name}: pip install 'fdspec[explore]'") from None
+    opened = store.open(cube)
+    if record is not None and "record" in opened.dims:
+        names = [str(name) for name in opened["record"].values]
+        if record not in names:
+            raise InvalidInput(f"{cube} has no record {record!r}; it has {', '.join(names)}")
+        opened = opened.isel(record=[names.index(record)])
+    write_page(Content(opened, Path(cube).name), path)

@@ -1,0 +1,81 @@
+"""`fdspec explore`: a cube in the browser, with the history of any cell at a click."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+import click
+
+from fdspec.errors import InvalidInput
+
+
+@click.command()
+@click.argument("cube", metavar="CUBE.nc")
+@click.option(
+    "--record",
+    "records",
+    multiple=True,
+    metavar="NAME=FILE",
+    help="The file of a record that is not in the catalogue, for its histories; repeat it for several.",
+)
+@click.option(
+    "--host", default="127.0.0.1", show_default=True, metavar="ADDRESS", help="Address to listen on."
+)
+@click.option(
+    "--port",
+    type=click.IntRange(0, 65535),
+    default=0,
+    metavar="N",
+    help="Port to listen on.  [default: a free one]",
+)
+@click.option("--no-browser", is_flag=True, help="Only print the address; open no browser.")
+def explore(cube: str, records: tuple[str, ...], host: str, port: int, no_browser: bool) -> None:
+    """Show a cube in the browser: maps, surfaces, best pretension, histories at a click.
+
+    Prints the page's address and serves it until Ctrl-C. It is reached from this machine alone unless --host
+    says otherwise. `fdspec export CUBE.nc --html` writes a page that needs no server.
+    """
+    from fdspec import store
+
+    try:
+        from fdspec.explore import Content, Rerun, serve
+        from fdspec.explore.motions import read_given
+        from fdspec.explore.server import is_loopback
+    except ModuleNotFoundError as error:
+        raise InvalidInput(needs_extra(error)) from None
+
+    files = read_given(records)
+    opened = store.open(cube, lazily=True)
+    content = Content(opened, Path(cube).name)
+    rerun = Rerun(opened, files, Path(cube).parent)
+    if not is_loopback(host):
+        click.echo(f"fdspec: warning: whoever reaches {host} can read this cube and run histories", err=True)
+
+    def ready(address: str) -> None:
+        click.echo(f"{address}  (Ctrl-C ends)")
+        sys.stdout.flush()
+        if not no_browser and _has_browser():
+            import webbrowser
+
+            webbrowser.open(address)
+
+    try:
+        serve(content, rerun, host=host, port=port, ready=ready)
+    except KeyboardInterrupt:  # the way to end it
+        click.echo()
+
+
+def needs_extra(error: ModuleNotFoundError) -> str:
+    """Say which package is missing, and how to get it."""
+    return f"the page needs {error.name}: pip install 'fdspec[explore]'"
+
+
+def _has_browser() -> bool:
+    """Say whether a person sits here with a screen: text browsers would take the terminal."""
+    if not sys.stdout.isatty():
+        return False
+    if sys.platform in {"darwin", "win32"}:
+        return True
+    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))

@@ -1,0 +1,83 @@
+// Downloads: a picture with its title, and the numbers behind it.
+
+const PICTURE = { width: 1100, height: 700 };
+
+function download(name, content, type) {
+  const link = element("a");
+  link.href = URL.createObjectURL(new Blob([content], { type }));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+function fileName(...parts) {
+  return parts.join("-").replace(/[^\p{L}\p{N}._-]+/gu, "_");
+}
+
+// A figure made anew at one size, so that the file does not depend on the window.
+async function savePicture(picture, format) {
+  const { data, layout: drawn } = picture.plot();
+  const lines = [picture.title(), picture.origin()].filter(Boolean).map(plain);
+  const figure = {
+    data,
+    layout: {
+      ...drawn, ...PICTURE, title: { text: lines.join("<br>"), font: { ...FONT, size: 14 }, x: 0.02, xanchor: "left", y: 0.985, yanchor: "top" },
+      margin: { l: 70, r: 40, t: 88, b: 55 },
+    },
+  };
+  const address = await Plotly.toImage(figure, { format, ...PICTURE, scale: format === "png" ? 2 : 1 });
+  const content = await (await fetch(address)).blob();
+  download(`${picture.file()}.${format}`, content, content.type);
+}
+
+function quoted(text) {
+  return /[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
+}
+
+function saveNumbers(picture) {
+  const { heads, rows } = picture.numbers();
+  const lines = [
+    `# ${picture.title()}`, ...[picture.origin(), `cube: ${about.name}`, `made: ${about.made}`].filter(Boolean).map((text) => `# ${text.replace(/\s+/g, " ")}`),
+    heads.map(quoted).join(","),
+    // JavaScript writes the shortest digits that read back to the same number.
+    ...rows.map((row) => row.map((v) => (v === null || Number.isNaN(v) ? "" : v)).join(",")),
+  ];
+  download(`${picture.file()}.csv`, lines.join("\n") + "\n", "text/csv");
+}
+
+function named(index) {
+  return index.unit ? `${index.name}_${index.unit.replace("%", "percent").replace("/", "_per_")}` : index.name;
+}
+
+function mapNumbers(s, index, numbers) {
+  const rows = [];
+  for (let f = 0; f < SIZES.force; f++) {
+    for (let t = 0; t < SIZES.period; t++) {
+      rows.push([AXES.stiffness_ratio[s.ratio], AXES.pretension[f], AXES.slip_force[f], AXES.period[t], cell(numbers[index.name], s.ratio, f, t)]);
+    }
+  }
+  return { heads: ["stiffness_ratio", "pretension_kN", "slip_force_kN", "period_s", named(index)], rows };
+}
+
+function sliceNumbers(s, index, shown) {
+  const heads = ["pretension_kN", ...shown.map(({ k }) => `${about.records[k].name}_${named(index)}`)];
+  const rows = AXES.pretension.map((force, f) => [force, ...shown.map(({ numbers }) => cell(numbers[index.name], s.ratio, f, s.period))]);
+  return { heads, rows };
+}
+
+function bestNumbers(s, index, shown) {
+  const heads = ["period_s", ...shown.flatMap(({ k }) => [`${about.records[k].name}_best_pretension_kN`, `${about.records[k].name}_${named(index)}`])];
+  const rows = AXES.period.map((period, t) => [period, ...shown.flatMap(({ numbers }) => {
+    const places = numbers[`best ${index.name}`];
+    const f = places ? places[s.ratio * SIZES.period + t] : NaN;
+    return Number.isFinite(f) ? [AXES.pretension[f], cell(numbers[index.name], s.ratio, f, t)] : [null, null];
+  })]);
+  return { heads, rows };
+}
+
+function historyNumbers(history) {
+  const units = { time: "s", displacement: "mm", brace_displacement: "mm", friction_force: "kN", acceleration: "g", ground_acceleration: "g" };
+  const names = Object.keys(units);
+  const rows = Array.from(history.arrays.time, (_, k) => names.map((name) => history.arrays[name][k]));
+  return { heads: names.map((name) => `${name}_${units[name]}`), rows };
+}

@@ -1,0 +1,92 @@
+// Numbers: unpacked from bytes, sliced, and written for people.
+
+const about = JSON.parse(document.getElementById("about").textContent);
+const AXES = about.axes;
+const SIZES = { ratio: AXES.stiffness_ratio.length, force: AXES.pretension.length, period: AXES.period.length };
+
+// The counterpart of fdspec/explore/packing.py.
+function unpack(buffer) {
+  const length = new DataView(buffer).getUint32(0, true);
+  const head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
+  const values = new Float64Array(buffer, 4 + length);
+  const arrays = {};
+  for (const [name, [first, count]] of Object.entries(head.arrays)) {
+    arrays[name] = values.subarray(first, first + count);
+  }
+  return { ...head, arrays };
+}
+
+async function gunzip(bytes) {
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Response(stream).arrayBuffer();
+}
+
+// What the server answers, or the sentence with which it refuses.
+async function ask(address, signal) {
+  let answer;
+  try {
+    answer = await fetch(address, { signal });
+  } catch (error) {
+    if (error.name === "AbortError") throw error;
+    throw new Error("The server does not answer: fdspec explore has ended. Start it again and reload this page.");
+  }
+  if (answer.ok) return answer.arrayBuffer();
+  const told = await answer.json().catch(() => ({}));
+  throw new Error(told.error || `The server answers with error ${answer.status}.`);
+}
+
+async function recordBytes(k) {
+  const here = document.getElementById(`record-${k}`);
+  return here ? Uint8Array.from(atob(here.textContent), (letter) => letter.charCodeAt(0)) : ask(`record/${k}`);
+}
+
+const records = new Map();
+function recordNumbers(k) {
+  if (!records.has(k)) {
+    const coming = recordBytes(k).then(gunzip).then((buffer) => unpack(buffer).arrays);
+    coming.catch(() => records.delete(k));
+    records.set(k, coming);
+  }
+  return records.get(k);
+}
+
+function cell(values, ratio, force, period) {
+  return values[(ratio * SIZES.force + force) * SIZES.period + period];
+}
+
+// Rows over period, one a pretension; null where there is no number, which leaves a gap in a picture.
+function slice(values, ratio) {
+  const rows = [];
+  for (let f = 0; f < SIZES.force; f++) {
+    const first = (ratio * SIZES.force + f) * SIZES.period;
+    rows.push(Array.from(values.subarray(first, first + SIZES.period), (v) => (Number.isFinite(v) ? v : null)));
+  }
+  return rows;
+}
+
+// Bounds and step of the colours: round numbers, from 0 or below to the largest value.
+function scaleOf(arrays) {
+  let low = 0, high = -Infinity;
+  for (const values of arrays) {
+    for (const v of values) {
+      if (v < low && v > -Infinity) low = v;
+      if (v > high && v < Infinity) high = v;
+    }
+  }
+  if (!(high > low)) high = low + 1;
+  const rough = (high - low) / 18, power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 2.5, 5, 10].map((m) => m * power).find((m) => m >= rough * 0.999);
+  return { low: Math.floor(low / step) * step, high: Math.ceil(high / step - 1e-9) * step, step };
+}
+
+function nearest(axis, value) {
+  let best = 0;
+  axis.forEach((x, k) => { if (Math.abs(x - value) < Math.abs(axis[best] - value)) best = k; });
+  return best;
+}
+
+function written(value, unit) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "unknown";
+  const digits = Number.isInteger(value) && Math.abs(value) < 1e6 ? String(value) : String(Number(value.toPrecision(4)));
+  return unit ? `${digits}\u00a0${unit}` : digits;
+}

@@ -1,0 +1,193 @@
+// Pictures of the cube: each function returns what Plotly draws, and draws nothing itself.
+
+// Perceptually even, and safe for colour-blind eyes and in grey print.
+const EVEN = "Viridis";
+// Of Okabe and Ito's palette; the second record differs by its dashes and marks too.
+const RECORD_LINES = [
+  { color: "#0072B2", dash: "solid", symbol: "circle" },
+  { color: "#D55E00", dash: "dash", symbol: "square" },
+];
+const FLOOR = "#0072B2", BRACE = "#D55E00", GROUND = "#E69F00", LIMIT = "#4a5866";
+const FONT = { family: 'system-ui, "Segoe UI", "DejaVu Sans", sans-serif', size: 12, color: "#1b2733" };
+// No buttons over the pictures, which keys do not reach: the page has its own. No zoom by dragging where a
+// finger drags to scroll.
+const TOUCH = matchMedia("(pointer: coarse)").matches;
+const CONFIG = { plotGlPixelRatio: Math.min(window.devicePixelRatio, 2), displayModeBar: false, responsive: true, doubleClick: "reset", scrollZoom: false };
+
+function layout(more) {
+  return {
+    font: FONT, paper_bgcolor: "#fff", plot_bgcolor: "#fff", showlegend: false, uirevision: "kept",
+    dragmode: TOUCH ? false : "zoom", margin: { l: 58, r: 12, t: 8, b: 42 }, hoverlabel: { font: FONT }, ...more,
+  };
+}
+
+function axis(title, more) {
+  return { title: { text: title, standoff: 6 }, gridcolor: "#e3e8ec", zeroline: false, ticks: "outside", ticklen: 3, ...more };
+}
+
+function ends(values) {
+  return [values[0], values[values.length - 1]];
+}
+
+function bestLine(s, index, numbers) {
+  const line = { x: [], y: [], z: [] };
+  for (let t = 0; index.best && t < SIZES.period; t++) {
+    const f = numbers[`best ${index.name}`][s.ratio * SIZES.period + t];
+    if (!Number.isFinite(f)) continue;
+    line.x.push(AXES.period[t]);
+    line.y.push(AXES.pretension[f]);
+    line.z.push(cell(numbers[index.name], s.ratio, f, t));
+  }
+  return line;
+}
+
+function pointMark(s, index, numbers) {
+  const z = cell(numbers[index.name], s.ratio, s.force, s.period);
+  return { x: [AXES.period[s.period]], y: [AXES.pretension[s.force]], z: [Number.isFinite(z) ? z : null] };
+}
+
+function contourPlot(s, index, numbers, scale) {
+  const best = bestLine(s, index, numbers), point = pointMark(s, index, numbers);
+  const data = [
+    {
+      type: "contour", x: AXES.period, y: AXES.pretension, z: slice(numbers[index.name], s.ratio),
+      colorscale: EVEN, zmin: scale.low, zmax: scale.high, autocontour: false,
+      contours: { start: scale.low, end: scale.high, size: scale.step },
+      line: { color: "rgba(255,255,255,0.6)", width: 0.5 }, connectgaps: false,
+      colorbar: { title: { text: index.unit, side: "top" }, thickness: 12, len: 1, outlinewidth: 0, x: 1.01, xpad: 2, tick0: scale.low, dtick: 4 * scale.step },
+      hovertemplate: `%{x} s, %{y} kN<br>%{z:.4g} ${index.unit}<extra></extra>`,
+    },
+    {
+      type: "scatter", mode: "lines+markers", x: best.x, y: best.y, hoverinfo: "skip", cliponaxis: false,
+      line: { color: "#fff", width: 1.5 }, marker: { color: "#fff", size: 5, line: { color: "#000", width: 1 } },
+    },
+    {
+      type: "scatter", mode: "markers", x: point.x, y: point.y, hoverinfo: "skip", cliponaxis: false,
+      marker: { symbol: "x-open", color: "#000", size: 13, line: { width: 5 } },
+    },
+    {
+      type: "scatter", mode: "markers", x: point.x, y: point.y, hoverinfo: "skip", cliponaxis: false,
+      marker: { symbol: "x-open", color: "#fff", size: 11, line: { width: 2 } },
+    },
+  ];
+  return { data, layout: layout({ xaxis: axis("period without brace, s", { range: ends(AXES.period) }), yaxis: axis("pretension, kN", { range: ends(AXES.pretension) }) }) };
+}
+
+function eye(turn) {
+  const angle = (turn * Math.PI) / 180;
+  return { x: 1.85 * Math.cos(angle), y: 1.85 * Math.sin(angle), z: 1.0 };
+}
+
+function surfacePlot(s, index, numbers, scale) {
+  const best = bestLine(s, index, numbers), point = pointMark(s, index, numbers);
+  const lift = (z) => (z === null ? null : z + 0.01 * (scale.high - scale.low));
+  const data = [
+    {
+      type: "surface", x: AXES.period, y: AXES.pretension, z: slice(numbers[index.name], s.ratio),
+      colorscale: EVEN, cmin: scale.low, cmax: scale.high, showscale: false, lighting: { ambient: 0.85, diffuse: 0.4, specular: 0.05 },
+      hovertemplate: `%{x} s, %{y} kN<br>%{z:.4g} ${index.unit}<extra></extra>`,
+    },
+    {
+      type: "scatter3d", mode: "lines+markers", x: best.x, y: best.y, z: best.z.map(lift), hoverinfo: "skip",
+      line: { color: "#fff", width: 5 }, marker: { color: "#fff", size: 2.5, line: { color: "#000", width: 1 } },
+    },
+    {
+      type: "scatter3d", mode: "markers", x: point.x, y: point.y, z: point.z.map(lift), hoverinfo: "skip",
+      marker: { symbol: "x", color: "#D55E00", size: 5 },
+    },
+  ];
+  const side = (title, more) => ({ title: { text: title, font: { ...FONT, size: 11 } }, tickfont: { ...FONT, size: 10 }, gridcolor: "#c9d1d9", showspikes: false, backgroundcolor: "#f4f6f8", showbackground: true, ...more });
+  return {
+    data,
+    layout: layout({
+      margin: { l: 0, r: 0, t: 0, b: 0 },
+      scene: {
+        uirevision: "kept", dragmode: TOUCH ? false : "turntable", aspectmode: "manual", aspectratio: { x: 1.25, y: 1, z: 0.7 },
+        camera: { eye: eye(s.turn), center: { x: 0, y: 0, z: -0.2 } },
+        xaxis: side("period, s"), yaxis: side("pretension, kN"), zaxis: side(index.unit || "", { range: [scale.low, scale.high] }),
+      },
+    }),
+  };
+}
+
+// The index over pretension at the chosen period; rings stand within 5 % of the least.
+function slicePlot(s, index, shown) {
+  const data = [];
+  shown.forEach(({ k, numbers }, n) => {
+    const look = RECORD_LINES[n];
+    const y = AXES.pretension.map((_, f) => cell(numbers[index.name], s.ratio, f, s.period));
+    const least = Math.min(...y.filter(Number.isFinite));
+    const close = index.best === "least" ? y.map((v) => v <= 1.05 * least) : y.map(() => false);
+    data.push({
+      type: "scatter", mode: "lines+markers", name: plain(about.records[k].name), x: AXES.pretension, y,
+      line: { color: look.color, dash: look.dash, width: 2 },
+      marker: { symbol: close.map((c) => (c ? `${look.symbol}-open` : look.symbol)), color: look.color, size: close.map((c) => (c ? 11 : 6)), line: { width: 2 } },
+      hovertemplate: `%{x} kN: %{y:.4g} ${index.unit}<extra>%{fullData.name}</extra>`,
+    });
+    if (index.name !== "acceleration") return;
+    const level = (name, at, dash) => numbers[name] && data.push({
+      type: "scatter", mode: "lines", name: `${plain(about.records[k].name)}, ${name} frame`, x: [AXES.pretension[0], AXES.pretension[SIZES.force - 1]],
+      y: [numbers[name][at], numbers[name][at]], line: { color: look.color, dash, width: 1.2 }, hoverinfo: "skip",
+    });
+    level("bare", s.period, "dot");
+    level("braced", s.ratio * SIZES.period + s.period, "longdashdot");
+  });
+  return {
+    data,
+    layout: layout({
+      showlegend: true, legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0 }, margin: { l: 58, r: 12, t: 30, b: 42 },
+      xaxis: axis("pretension, kN"), yaxis: axis(`${index.title.toLowerCase()}${unitOf(index)}`, { rangemode: "tozero" }),
+      shapes: [{ type: "line", x0: AXES.pretension[s.force], x1: AXES.pretension[s.force], y0: 0, y1: 1, yref: "paper", line: { color: LIMIT, width: 1, dash: "dot" } }],
+    }),
+  };
+}
+
+// The best pretension at every period, and what it gives.
+function bestPlot(s, index, shown) {
+  const data = [];
+  shown.forEach(({ k, numbers }, n) => {
+    const look = RECORD_LINES[n], best = bestLine(s, index, numbers);
+    const name = plain(about.records[k].name);
+    const drawn = { type: "scatter", mode: "lines+markers", x: best.x, line: { color: look.color, dash: look.dash, width: 1.5 }, marker: { symbol: look.symbol, color: look.color, size: 4 } };
+    data.push({ ...drawn, name, y: best.y, hovertemplate: `%{x} s: %{y} kN<extra>${name}</extra>` });
+    data.push({ ...drawn, name, y: best.z, yaxis: "y2", showlegend: false, hovertemplate: `%{x} s: %{y:.4g} ${index.unit}<extra>${name}</extra>` });
+  });
+  return {
+    data,
+    layout: layout({
+      showlegend: true, legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0 }, margin: { l: 58, r: 12, t: 30, b: 42 },
+      xaxis: axis("period without brace, s", { anchor: "y2" }),
+      yaxis: axis("best pretension, kN", { domain: [0.54, 1], rangemode: "tozero" }),
+      yaxis2: axis(`its index${unitOf(index)}`, { domain: [0, 0.46], rangemode: "tozero" }),
+      shapes: [{ type: "line", x0: AXES.period[s.period], x1: AXES.period[s.period], y0: 0, y1: 1, yref: "paper", line: { color: LIMIT, width: 1, dash: "dot" } }],
+    }),
+  };
+}
+
+function historyPlot(history, narrow) {
+  const { time, displacement, brace_displacement, friction_force, acceleration, ground_acceleration, loop_slip, loop_force } = history.arrays;
+  const line = (name, x, y, color, more) => ({ type: "scatter", mode: "lines", name, x, y, line: { color, width: 1.2 }, hovertemplate: `%{x:.4g}, %{y:.4g}<extra>${name}</extra>`, ...more });
+  const data = [
+    line("floor", time, displacement, FLOOR),
+    line("brace", time, brace_displacement, BRACE, { line: { color: BRACE, width: 1, dash: "dot" } }),
+    line("friction", time, friction_force, FLOOR, { yaxis: "y2", showlegend: false }),
+    line("floor, absolute", time, acceleration, FLOOR, { yaxis: "y3", showlegend: false }),
+    line("ground", time, ground_acceleration, GROUND, { yaxis: "y3" }),
+    line("loop", loop_slip, loop_force, FLOOR, { xaxis: "x2", yaxis: "y4", showlegend: false }),
+  ];
+  const rows = narrow ? [[0.83, 1], [0.615, 0.785], [0.4, 0.57]] : [[0.7, 1], [0.36, 0.64], [0, 0.3]];
+  const force = history.slip_force;
+  const limits = force === null ? [] : [force, -force].flatMap((y) => [["x domain", "y2"], ["x2 domain", "y4"]].map(([xref, yref]) => (
+    { type: "line", xref, yref, x0: 0, x1: 1, y0: y, y1: y, line: { color: LIMIT, width: 1, dash: "dash" } })));
+  return {
+    data,
+    layout: layout({
+      showlegend: true, legend: { orientation: "h", y: 1.01, yanchor: "bottom", x: 0 }, margin: { l: 58, r: 12, t: 26, b: 40 },
+      xaxis: axis("time, s", { domain: narrow ? [0, 1] : [0, 0.62], anchor: "y3" }),
+      yaxis: axis("displacement,<br>mm", { domain: rows[0] }), yaxis2: axis("friction,<br>kN", { domain: rows[1] }), yaxis3: axis("acceleration,<br>g", { domain: rows[2] }),
+      xaxis2: axis("slip, floor less brace, mm", { domain: narrow ? [0, 1] : [0.71, 1], anchor: "y4" }),
+      yaxis4: axis("friction, kN", { domain: narrow ? [0, 0.3] : [0, 1], anchor: "x2" }),
+      shapes: limits,
+    }),
+  };
+}

@@ -1,0 +1,102 @@
+// Words: what stands beside a picture, for those who do not see it and for those who do.
+
+function pointWords(s) {
+  return `period ${written(AXES.period[s.period], "s")}, stiffness ratio ${written(AXES.stiffness_ratio[s.ratio])}, ` +
+    `pretension ${written(AXES.pretension[s.force], "kN")}`;
+}
+
+function unitOf(index) {
+  return index.unit ? `, ${index.unit}` : "";
+}
+
+function mapWords(s, k, index, numbers) {
+  const values = numbers[index.name];
+  let low = [Infinity], high = [-Infinity], missing = 0;
+  for (let f = 0; f < SIZES.force; f++) {
+    for (let t = 0; t < SIZES.period; t++) {
+      const v = cell(values, s.ratio, f, t);
+      if (!Number.isFinite(v)) { missing += 1; continue; }
+      if (v < low[0]) low = [v, f, t];
+      if (v > high[0]) high = [v, f, t];
+    }
+  }
+  if (low.length === 1) return `No history of ${about.records[k].name} ended well here.`;
+  const at = ([v, f, t]) => `${written(v, index.unit)} at ${written(AXES.period[t], "s")} and ${written(AXES.pretension[f], "kN")}`;
+  const parts = [`From ${at(low)} to ${at(high)}.`, bestWords(s, index, numbers)];
+  if (missing) parts.push(`${missing} histories did not end well and are left out.`);
+  return parts.filter(Boolean).join(" ");
+}
+
+function bestPlace(s, index, numbers) {
+  const places = numbers[`best ${index.name}`];
+  const place = places ? places[s.ratio * SIZES.period + s.period] : NaN;
+  return Number.isFinite(place) ? place : null;
+}
+
+function bestWords(s, index, numbers) {
+  if (!index.best) return "This index has no best pretension.";
+  const place = bestPlace(s, index, numbers);
+  if (place === null) return "";
+  return `At ${written(AXES.period[s.period], "s")} the best of these pretensions is ${written(AXES.pretension[place], "kN")}: ` +
+    `${written(cell(numbers[index.name], s.ratio, place, s.period), index.unit)}.`;
+}
+
+function curveWords(s, k, index, numbers) {
+  const here = cell(numbers[index.name], s.ratio, s.force, s.period);
+  return `${about.records[k].name}: ${written(here, index.unit)} at ${written(AXES.pretension[s.force], "kN")}. ${bestWords(s, index, numbers)}`;
+}
+
+function historyWords(history) {
+  const [acceleration, displacement] = history.compared;
+  const words = `Peaks of the motion between samples too: ${written(acceleration.history, acceleration.unit)}` +
+    ` and ${written(displacement.history, displacement.unit)}.`;
+  if (acceleration.cube === null) return words;
+  const off = Math.abs(acceleration.history - acceleration.cube) / Math.max(Math.abs(acceleration.cube), 1e-300);
+  return off < 1e-9
+    ? `${words} The cube's cell says the same.`
+    : `${words} The cube's cell says ${written(acceleration.cube, acceleration.unit)}, ${written(100 * off, "%")} off.`;
+}
+
+function originWords(k) {
+  const r = about.records[k];
+  const parts = [r.source || r.event];
+  if (r.pga !== null) parts.push(`PGA ${written(r.pga, "g")}`);
+  if (r.scale_factor !== null && r.scale_factor !== 1) parts.push(`the recorded motion times ${written(r.scale_factor)}`);
+  if (r.duration !== null) parts.push(`${written(r.duration, "s")} long`);
+  return parts.filter(Boolean).join("; ");
+}
+
+// The drawing library reads some HTML in texts; names from files are to stand as they are.
+function plain(text) {
+  return text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");
+}
+
+function table(caption, heads, rows) {
+  const made = element("table");
+  made.append(element("caption", caption));
+  const line = element("tr");
+  heads.forEach((head) => { const th = element("th", head); th.scope = "col"; line.append(th); });
+  made.append(line);
+  for (const row of rows) {
+    const tr = element("tr");
+    row.forEach((text, k) => {
+      const td = element(k ? "td" : "th", text);
+      if (!k) td.scope = "row";
+      tr.append(td);
+    });
+    made.append(tr);
+  }
+  const scroll = element("div");
+  scroll.className = "scroll";
+  scroll.tabIndex = 0;
+  scroll.setAttribute("role", "group");
+  scroll.setAttribute("aria-label", caption);
+  scroll.append(made);
+  return scroll;
+}
+
+function element(tag, text) {
+  const made = document.createElement(tag);
+  if (text !== undefined) made.textContent = text;
+  return made;
+}

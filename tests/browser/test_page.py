@@ -1,0 +1,346 @@
+"""What a user does on the page of `fdspec explore`, in a real browser."""
+
+import csv
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Download, Page, Response
+
+from fdspec import store
+from fdspec.units import G
+from tests.browser.conftest import NARROW, WIDE, Watched
+from tests.explored import PERIOD, PRETENSION, STIFFNESS_RATIO, unpack
+
+pytestmark = pytest.mark.browser
+
+CARDS = ["map-0", "surface-0", "history-0", "over-pretension", "best-pretension"]
+
+
+def drawn(page: Page, card: str, trace: int = 0) -> dict[str, Any]:
+    """Return what a picture was given to draw; missing numbers are None."""
+    return json.loads(
+        page.evaluate(
+            "([card, k]) => JSON.stringify(document.querySelector(`#${card} .plot`).data[k],"
+            " (_, v) => ArrayBuffer.isView(v) ? Array.from(v) : v)",
+            [card, trace],
+        )
+    )
+
+
+def words(page: Page, card: str) -> str:
+    return page.locator(f"#{card} figcaption").inner_text().replace("\xa0", " ")
+
+
+def slice_of(cube: xr.Dataset, record: str, ratio: float, name: str = "peak_acceleration") -> np.ndarray:
+    return cube[name].sel(record=record, stiffness_ratio=ratio).transpose("pretension", "period").values
+
+
+def at_cell(page: Page, card: str, period: float, pretension: float) -> tuple[float, float]:
+    """Return the pixel of a point of a picture with axes of period (s) and pretension (kN)."""
+    x, y = page.evaluate(
+        """([card, x, y]) => {
+            const plot = document.querySelector(`#${card} .plot`);
+            plot.scrollIntoView({ block: "center" });
+            const { xaxis, yaxis } = plot._fullLayout, box = plot.getBoundingClientRect();
+            return [box.x + xaxis._offset + xaxis.d2p(x), box.y + yaxis._offset + yaxis.d2p(y)];
+        }""",
+        [card, period, pretension],
+    )
+    return x, y
+
+
+def clicked_history(
+    watched: Watched, x: float, y: float, held: float = 0.0
+) -> tuple[Response, dict[str, Any]]:
+    """Click there, the button held for so many ms; return the server's answer and what it holds."""
+    page = watched.page
+    with page.expect_response(re.compile(r"/history\?")) as coming:
+        page.mouse.move(x - 3, y)
+        page.mouse.move(x, y)
+        page.mouse.click(x, y, delay=held)
+    about, arrays = unpack(coming.value.body())
+    watched.settled()
+    return coming.value, {**about, **arrays}
+
+
+def place_of(response: Response) -> dict[str, int]:
+    """Return the positions that a history was asked for at."""
+    return {name: int(value) for name, value in re.findall(r"(\w+)=(\d+)", response.url)}
+
+
+def test_it_loads_draws_everything_and_asks_nobody_else(wide: Watched, address: str) -> None:
+    page = wide.open(address)
+    for card in CARDS:
+        assert page.locator(f"#{card} .plot .main-svg").count() > 0, card
+    assert page.locator("#surface-0 canvas").count() > 0
+    assert page.locator("#status").inner_text() == ""
+    assert {url.split("/")[2] for url in wide.requests if url.startswith("http")} == {address.split("/")[2]}
+    assert not [url for url in wide.requests if not url.startswith(("http", "data:", "blob:"))]
+
+
+def test_the_slider_moves_map_and_surface(wide: Watched, address: str, cube: xr.Dataset) -> None:
+    page = wide.open(address)
+    pictures = []
+    for ratio, key in ((4.0, ""), (8.0, "ArrowRight"), (1.0, "Home")):
+        if key:
+            page.locator("#ratio").press(key)
+            wide.settled()
+        wanted = slice_of(cube, "FSR1", ratio) / G
+        for card in ("map-0", "surface-0"):
+            assert np.allclose(drawn(page, card)["z"], wanted, rtol=1e-15), (card, ratio)
+        assert page.locator("#ratio").get_attribute("aria-valuetext") == f"{ratio:g}"
+        assert f"stiffness ratio {ratio:g}" in page.locator("#surface-0 h2").inner_text()
+        pictures.append(page.locator("#surface-0 .plot").screenshot())
+    assert len(set(pictures)) == 3
+
+
+@pytest.mark.parametrize(("period", "pretension"), [(0.35, 60.0), (1.2, 210.0)])
+def test_a_click_on_the_map_runs_the_history_of_that_cell(
+    wide: Watched, address: str, cube: xr.Dataset, period: float, pretension: float
+) -> None:
+    page = wide.open(address)
+    response, history = clicked_history(wide, *at_cell(page, "map-0", period, pretension))
+    assert place_of(response) == {
+        "record": 0,
+        "stiffness_ratio": STIFFNESS_RATIO.index(4.0),
+        "pretension": PRETENSION.index(pretension * 1e3),
+        "period": PERIOD.index(period),
+    }
+    cell = cube.sel(record="FSR1", stiffness_ratio=4.0, pretension=pretension * 1e3, period=period)
+    peak = cell["peak_acceleration"].item() / G
+    assert history["compared"][0]["history"] == pytest.approx(peak, rel=1e-9)
+    assert f"{peak:.4g} g" in words(page, "history-0")
+    assert "The cube's cell says the same." in words(page, "history-0")
+    assert f"pretension {pretension:g} kN" in page.locator("#history-0 h2").inner_text().replace("\xa0", " ")
+    floor, brace, friction, acceleration = (drawn(page, "history-0", k)["y"] for k in range(4))
+    assert 0.9 * peak < np.abs(acceleration).max() <= peak * (1 + 1e-12)
+    assert np.abs(floor).max() == pytest.approx(cell["peak_displacement"].item() * 1e3, rel=0.02)
+    assert np.abs(friction).max() <= cell["slip_force"].item() / 1e3 * (1 + 1e-9)
+    assert len(brace) == len(floor)
+    assert len(drawn(page, "history-0", 5)["x"]) > 10
+
+
+def test_a_click_on_the_surface_runs_a_history_too(wide: Watched, address: str, cube: xr.Dataset) -> None:
+    page = wide.open(address)
+    box = page.locator("#surface-0 .plot").bounding_box()
+    assert box is not None
+    x, y = box["x"] + 0.55 * box["width"], box["y"] + 0.5 * box["height"]
+    page.mouse.move(x - 8, y)
+    page.mouse.move(x, y, steps=4)
+    page.wait_for_selector("#surface-0 .hovertext", state="attached")
+    response, history = clicked_history(
+        wide, x, y, held=600.0
+    )  # the surface looks at the button in each of its frames
+    place = {name: k for name, k in place_of(response).items() if name != "record"}
+    peak = cube["peak_acceleration"].isel(record=0, **place).item() / G
+    assert history["compared"][0]["history"] == pytest.approx(peak, rel=1e-9)
+    assert f"{peak:.4g} g" in words(page, "history-0")
+
+
+def test_the_line_of_the_best_pretension(wide: Watched, address: str, cube: xr.Dataset) -> None:
+    page = wide.open(address)
+    wanted = cube["peak_acceleration"].sel(record="FSR1", stiffness_ratio=4.0).idxmin("pretension") / 1e3
+    for card, trace in (("map-0", 1), ("surface-0", 1), ("best-pretension", 0)):
+        line = drawn(page, card, trace)
+        assert line["x"] == PERIOD
+        assert line["y"] == wanted.values.tolist(), card
+    page.select_option("#index", label="Slip travel")
+    wide.settled()
+    assert drawn(page, "map-0", 1)["x"] == []
+    assert page.locator("#best-pretension").count() == 0
+    assert "no best pretension" in words(page, "map-0")
+    assert page.locator("#best").is_disabled()
+
+
+def test_two_records_share_one_scale_and_both_have_histories(
+    wide: Watched, address: str, cube: xr.Dataset
+) -> None:
+    page = wide.open(address)
+    page.select_option("#compare", label="FMR1")
+    wide.settled()
+    first, second = drawn(page, "map-0"), drawn(page, "map-1")
+    assert np.allclose(second["z"], slice_of(cube, "FMR1", 4.0) / G, rtol=1e-15)
+    assert (first["zmin"], first["zmax"]) == (second["zmin"], second["zmax"])
+    largest = cube["peak_acceleration"].sel(record=["FSR1", "FMR1"]).max().item() / G
+    assert first["zmax"] >= largest
+    assert "FMR1" in page.locator("#history-1 h2").inner_text()
+    assert {drawn(page, "over-pretension", k)["line"]["dash"] for k in (0, 3)} == {"solid", "dash"}
+    page.select_option("#compare", label="no other")
+    wide.settled()
+    assert page.locator("#map-1, #surface-1, #history-1").count() == 0
+
+
+def saved(page: Page, card: str, label: str, folder: Path) -> Path:
+    with page.expect_download() as coming:
+        page.locator(f"#{card} .save button", has_text=label).click()
+    found: Download = coming.value
+    path = folder / found.suggested_filename
+    found.save_as(path)
+    return path
+
+
+def rows_of(path: Path) -> list[dict[str, str]]:
+    lines = path.read_text(encoding="utf-8").splitlines()
+    return list(csv.DictReader(line for line in lines if not line.startswith("#")))
+
+
+def test_pictures_download(wide: Watched, address: str, tmp_path: Path) -> None:
+    page = wide.open(address)
+    for card in CARDS:
+        png = saved(page, card, "PNG", tmp_path).read_bytes()
+        assert png.startswith(b"\x89PNG")
+        assert (int.from_bytes(png[16:20]), int.from_bytes(png[20:24])) == (2200, 1400)
+    svg = saved(page, "map-0", "SVG", tmp_path).read_text(encoding="utf-8")
+    assert svg.startswith("<svg")
+    assert "FSR1, stiffness ratio 4" in svg
+    assert "stand-in for the study" in svg
+
+
+def test_the_numbers_behind_pictures_download_to_the_bit(
+    wide: Watched, address: str, cube: xr.Dataset, tmp_path: Path
+) -> None:
+    page = wide.open(address)
+    path = saved(page, "map-0", "CSV", tmp_path)
+    assert path.name == "FSR1-acceleration-SR4-map.csv"
+    rows = rows_of(path)
+    found = np.array([float(row["acceleration_g"]) for row in rows]).reshape(len(PRETENSION), len(PERIOD))
+    assert np.array_equal(found, slice_of(cube, "FSR1", 4.0) * (1.0 / G))
+    assert [float(row["period_s"]) for row in rows[: len(PERIOD)]] == PERIOD
+    assert "# cube: cube.nc" in path.read_text(encoding="utf-8")
+    best = rows_of(saved(page, "best-pretension", "CSV", tmp_path))
+    wanted = cube["peak_acceleration"].sel(record="FSR1", stiffness_ratio=4.0).idxmin("pretension") / 1e3
+    assert [float(row["FSR1_best_pretension_kN"]) for row in best] == wanted.values.tolist()
+    history = rows_of(saved(page, "history-0", "CSV", tmp_path))
+    assert [float(row["displacement_mm"]) for row in history] == drawn(page, "history-0", 0)["y"]
+    assert [float(row["friction_force_kN"]) for row in history] == drawn(page, "history-0", 2)["y"]
+    file = store.open(saved(page, "history-0", "netCDF", tmp_path))
+    peak = np.abs(file["displacement"].values).max() * 1e3
+    assert peak == pytest.approx(np.abs(drawn(page, "history-0", 0)["y"]).max(), rel=1e-12)
+
+
+def test_a_record_that_cannot_be_found_is_a_message(wide: Watched, address: str) -> None:
+    page = wide.open(address)
+    page.select_option("#record", label="mine")
+    wide.settled()
+    assert "record 'mine' is not in the catalogue" in page.locator("#status").inner_text()
+    assert "--record mine=FILE" in page.locator("#status").inner_text()
+    assert "Traceback" not in page.content()
+    assert page.locator("#history-0").count() == 0
+    assert "mine" in page.locator("#map-0 h2").inner_text()
+    # The refusal is what the browser itself writes to its console about the answer 422.
+    assert [text for text in wide.complaints if "422" not in text] == []
+    wide.complaints.clear()
+    page.select_option("#record", label="FMR1")
+    wide.settled()
+    assert page.locator("#status").inner_text() == ""
+    assert page.locator("#history-0").count() == 1
+
+
+def test_everything_is_reached_and_used_by_keys(wide: Watched, address: str, cube: xr.Dataset) -> None:
+    page = wide.open(address)
+    reached = []
+    page.locator("body").press("Tab")
+    for _ in range(60):
+        reached.append(
+            page.evaluate("document.activeElement.id || document.activeElement.textContent.trim()")
+        )
+        if reached[-1] == "Where the numbers come from":
+            break
+        page.keyboard.press("Tab")
+    controls = ["record", "compare", "index", "ratio", "period", "force", "best", "turn"]
+    assert [name for name in reached if name in controls] == controls
+    assert reached[0] == "Skip to the pictures"
+    assert reached.count("PNG") == reached.count("CSV") == len(CARDS)
+    page.locator("#period").press("End")
+    wide.settled()
+    page.locator("#best").press("Enter")
+    wide.settled()
+    peaks = cube["peak_acceleration"].sel(record="FSR1", stiffness_ratio=4.0, period=PERIOD[-1])
+    assert f"{peaks.min().item() / G:.4g} g" in words(page, "history-0")
+    before = page.locator("#surface-0 .plot").screenshot()
+    page.locator("#turn").press("PageUp")
+    page.wait_for_timeout(500)
+    assert page.locator("#surface-0 .plot").screenshot() != before
+
+
+def test_pictures_have_words_that_follow_them(wide: Watched, address: str, cube: xr.Dataset) -> None:
+    page = wide.open(address)
+    pictures = page.locator("[role=img]")
+    assert pictures.count() == len(CARDS)
+    told = []
+    for k in range(pictures.count()):
+        label = pictures.nth(k).get_attribute("aria-label") or ""
+        described = page.locator(f"#{pictures.nth(k).get_attribute('aria-describedby')}").inner_text()
+        assert "FSR1" in label
+        assert len(described) > 20
+        told.append((label, described))
+    low = slice_of(cube, "FSR1", 4.0).min() / G
+    assert f"{low:.4g}" in words(page, "map-0")
+    page.locator("#ratio").press("Home")
+    wide.settled()
+    for k, (label, _) in enumerate(told):
+        assert pictures.nth(k).get_attribute("aria-label") != label
+    assert f"{slice_of(cube, 'FSR1', 1.0).min() / G:.4g}" in words(page, "map-0")
+
+
+@pytest.mark.parametrize("size", [WIDE, NARROW], ids=["1440", "390"])
+def test_axe_finds_no_violation_and_nothing_sticks_out(
+    request: pytest.FixtureRequest, address: str, size: dict[str, int]
+) -> None:
+    watched: Watched = request.getfixturevalue("wide" if size is WIDE else "narrow")
+    page = watched.open(address)
+    page.select_option("#compare", label="FMR1")
+    watched.settled()
+    for summary in page.locator("summary").all():
+        summary.click()
+    found = Axe().run(page)
+    assert found.violations_count == 0, found.generate_report()
+    assert page.evaluate("document.documentElement.scrollWidth") == size["width"]
+    boxes = [locator.bounding_box() for locator in page.locator("figure, #controls, details").all()]
+    for k, one in enumerate(boxes):
+        assert one is not None
+        assert one["x"] >= 0
+        assert one["x"] + one["width"] <= size["width"]
+        for other in boxes[:k]:
+            assert other is not None
+            apart_x = one["x"] >= other["x"] + other["width"] or other["x"] >= one["x"] + one["width"]
+            apart_y = one["y"] >= other["y"] + other["height"] or other["y"] >= one["y"] + one["height"]
+            assert apart_x or apart_y
+
+
+def test_a_view_is_kept_in_its_address(wide: Watched, address: str, cube: xr.Dataset) -> None:
+    page = wide.open(address + "#record=1&ratio=2&period=4&force=3&index=3&compare=0")
+    assert np.allclose(drawn(page, "map-0")["z"], slice_of(cube, "FMR1", 8.0, "peak_displacement") * 1e3)
+    assert "period 1.2 s, stiffness ratio 8, pretension 210 kN" in page.locator(
+        "#history-0 h2"
+    ).inner_text().replace("\xa0", " ")
+    assert page.locator("#map-1").count() == 1
+
+
+def test_the_file_needs_no_server(wide: Watched, folder: Path, cube: xr.Dataset, tmp_path: Path) -> None:
+    page = wide.open((folder / "cube.html").as_uri())
+    assert {url.split(":")[0] for url in wide.requests} <= {"file", "data", "blob"}
+    assert sum(url.startswith("file:") for url in wide.requests) == 1
+    page.locator("#ratio").press("Home")
+    wide.settled()
+    assert np.allclose(drawn(page, "surface-0")["z"], slice_of(cube, "FSR1", 1.0) / G, rtol=1e-15)
+    page.select_option("#record", label="mine")
+    wide.settled()
+    assert np.allclose(drawn(page, "map-0")["z"], slice_of(cube, "mine", 1.0) / G, rtol=1e-15)
+    page.mouse.click(*at_cell(page, "map-0", 0.8, 110.0))
+    wide.settled()
+    assert "fdspec explore cube.nc" in page.locator("#histories").inner_text()
+    page.locator("#cell summary").click()
+    cell = cube.sel(record="mine", stiffness_ratio=1.0, period=0.8, pretension=110e3)
+    assert f"{cell['peak_acceleration'].item() / G:.4g} g" in page.locator("#cell").inner_text().replace(
+        "\xa0", " "
+    )
+    rows = rows_of(saved(page, "map-0", "CSV", tmp_path))
+    assert len(rows) == len(PERIOD) * len(PRETENSION)
+    assert saved(page, "surface-0", "PNG", tmp_path).read_bytes().startswith(b"\x89PNG")

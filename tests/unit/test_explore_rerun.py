@@ -1,0 +1,181 @@
+"""The history of a cell: the cube's own frame and motion, found again or said to be another."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import fdspec
+from fdspec import store
+from fdspec.errors import InvalidInput, RecordError
+from fdspec.explore.motions import Motions, read_given
+from fdspec.explore.rerun import COMPARED, LOOP_FINER, Rerun, loop
+from fdspec.motion import GroundMotion
+from tests.explored import own_motion, small_cube, unpack
+
+CHANGED = {
+    "floor_mass": 31e3,
+    "brace_mass": 120.0,
+    "damping_ratio": 0.03,
+    "friction_coefficient": 0.4,
+    "kinetic_friction_coefficient": 0.3,
+    "normal_force_factor": 2.0,
+    "brace_damping_ratio": 0.01,
+}
+
+
+@pytest.fixture(scope="module")
+def cube() -> xr.Dataset:
+    return small_cube()
+
+
+def write_text(motion: GroundMotion, path: Path, factor: float = 1.0) -> None:
+    """Write two columns that say neither their unit nor anything else."""
+    rows = np.column_stack([motion.time, motion.acceleration / factor])
+    path.write_text("\n".join(f"{t:.4f} {a!r}" for t, a in rows.tolist()) + "\n")
+
+
+def test_every_peak_of_a_history_is_the_cells(cube: xr.Dataset) -> None:
+    rerun = Rerun(cube)
+    random = np.random.default_rng(2)
+    for _ in range(12):
+        place = [int(random.integers(size)) for size in cube["peak_acceleration"].shape]
+        about, arrays = unpack(rerun.packed(*place))
+        assert about["notice"] == ""
+        assert about["record"] == str(cube["record"].values[place[0]])
+        assert len(about["compared"]) == len(COMPARED)
+        for one in about["compared"]:
+            assert one["history"] == pytest.approx(one["cube"], rel=1e-9, abs=1e-12), (place, one)
+        peak = about["compared"][0]["history"]
+        assert np.abs(arrays["acceleration"]).max() <= peak * (1 + 1e-12)
+
+
+def test_all_parameters_of_the_frame_come_from_the_cube() -> None:
+    cube = small_cube(own_motion("FSR1"), **CHANGED)
+    rerun = Rerun(cube)
+    frame = rerun.building(1, 2, 3)
+    assert frame == fdspec.Building.single_storey(
+        0.8,
+        4.0,
+        0.4 * 2.0 * 110e3,
+        floor_mass=31e3,
+        brace_mass=120.0,
+        damping_ratio=0.03,
+        kinetic_slip_force=0.3 * 2.0 * 110e3,
+        brace_damping_ratio=0.01,
+    )
+
+
+def test_the_history_is_that_of_simulate(cube: xr.Dataset) -> None:
+    history, notice = Rerun(cube).history(1, 0, 3, 4)
+    frame = fdspec.Building.single_storey(period=1.2, stiffness_ratio=1.0, slip_force=105e3)
+    assert notice == ""
+    plain = fdspec.simulate(frame, fdspec.load_record("FMR1"))
+    assert np.array_equal(history["displacement"].values, plain["displacement"].values)
+
+
+def test_a_place_outside_the_cube(cube: xr.Dataset) -> None:
+    with pytest.raises(InvalidInput, match="period must be a position from 0 to 5, got 6"):
+        Rerun(cube).history(0, 0, 0, 6)
+
+
+def test_records_as_recorded_are_found_too() -> None:
+    cube = small_cube(fdspec.load_record("FHR2", scaled=False))
+    assert Motions(cube, {}, Path()).find("FHR2").notice == ""
+
+
+def test_a_record_of_the_catalogues_name_that_is_another_is_said(cube: xr.Dataset) -> None:
+    found = Motions(small_cube(own_motion("FSR1")), {}, Path()).find("FSR1")
+    assert "not the motion that the cube was made with: its checksum is " in found.notice
+    assert found.motion == fdspec.load_record("FSR1")
+
+
+def test_an_unknown_record_tells_how_to_name_its_file(tmp_path: Path) -> None:
+    motions = Motions(small_cube(own_motion()), {}, tmp_path)
+    with pytest.raises(RecordError, match="'mine' is not in the catalogue; start with --record mine=FILE"):
+        motions.find("mine")
+
+
+@pytest.mark.parametrize("factor", [1.0, 9.80665, 0.01])
+def test_a_file_is_read_in_the_unit_that_gives_the_checksum(tmp_path: Path, factor: float) -> None:
+    write_text(own_motion(), tmp_path / "some.txt", factor)
+    units = {1.0: "m/s2", 9.80665: "g", 0.01: "cm/s2"}[factor]
+    motion = fdspec.read_record(tmp_path / "some.txt", units=units, name="mine")
+    found = Motions(small_cube(motion), {"mine": tmp_path / "some.txt"}, Path()).find("mine")
+    assert found.notice == ""
+    assert found.motion.checksum == motion.checksum
+    assert found.motion.name == "mine"
+
+
+def test_a_scaled_motion_is_found_by_the_cubes_factor(tmp_path: Path) -> None:
+    write_text(own_motion(), tmp_path / "some.txt")
+    motion = fdspec.read_record(tmp_path / "some.txt", units="m/s2", name="mine").scaled(1.7)
+    found = Motions(small_cube(motion), {"mine": tmp_path / "some.txt"}, Path()).find("mine")
+    assert found.notice == ""
+    assert found.motion.scale_factor == 1.7
+
+
+def test_the_file_that_the_cube_names_is_found_beside_it(tmp_path: Path) -> None:
+    write_text(own_motion(), tmp_path / "some.txt")
+    cube = small_cube(fdspec.read_record(tmp_path / "some.txt", units="m/s2"))
+    assert Motions(cube, {}, tmp_path).find("some").notice == ""
+    (tmp_path / "some.txt").unlink()
+    with pytest.raises(RecordError, match=r"and its file some\.txt is not beside the cube"):
+        Motions(cube, {}, tmp_path).find("some")
+
+
+def test_a_file_of_another_motion_is_said_or_refused(tmp_path: Path) -> None:
+    cube = small_cube(own_motion())
+    write_text(own_motion().scaled(1.1), tmp_path / "silent.txt")
+    with pytest.raises(RecordError, match=r"silent\.txt cannot be read as the motion that the cube was made"):
+        Motions(cube, {"mine": tmp_path / "silent.txt"}, Path()).find("mine")
+    file = next((Path(__file__).parents[2] / "records").glob("*.AT2"))  # says its unit: run, and said
+    found = Motions(cube, {"mine": file}, Path()).find("mine")
+    assert "its checksum is" in found.notice
+    assert found.motion.name == "mine"
+
+
+def test_files_are_given_by_name(tmp_path: Path, cube: xr.Dataset) -> None:
+    file = tmp_path / "a=b.txt"
+    file.write_text("1")
+    assert read_given((f"mine={file}",)) == {"mine": file}
+    with pytest.raises(InvalidInput, match="takes NAME=FILE, got 'mine'"):
+        read_given(("mine",))
+    with pytest.raises(InvalidInput, match="there is no file nowhere"):
+        read_given(("mine=nowhere",))
+    with pytest.raises(InvalidInput, match="the cube has no record 'mine'; it has FSR1, FMR1"):
+        Rerun(cube, {"mine": file})
+
+
+def test_a_cube_without_its_parameters(cube: xr.Dataset) -> None:
+    with pytest.raises(InvalidInput, match=r"parameters does not tell floor_mass, .*fdspec sweep made"):
+        Rerun(cube.assign_attrs(parameters='{"brace_mass": 1.0}'))
+
+
+def test_the_loop_keeps_its_corners_and_loses_no_area() -> None:
+    """A cycle of Coulomb friction: stick upwards, slip, stick downwards, slip back."""
+    up = np.linspace(-50.0, 50.0, 41)
+    out = np.linspace(0.0, 8.0, 33)
+    slip = np.concatenate([np.zeros(41), out, np.full(41, 8.0), out[::-1], np.zeros(41)])
+    force = np.concatenate([up, np.full(33, 50.0), -up, np.full(33, -50.0), up])
+    x, y = loop(slip, force)
+    assert x.size <= 14
+    assert np.trapezoid(y, x) == pytest.approx(np.trapezoid(force, slip), rel=1e-12)
+    assert (x.min(), x.max(), y.min(), y.max()) == (0.0, 8.0, -50.0, 50.0)
+
+
+def test_the_drawn_loop_encloses_the_dissipated_energy(cube: xr.Dataset) -> None:
+    about, arrays = unpack(Rerun(cube).packed(0, 1, 2, 2))
+    dissipated = next(one["history"] for one in about["compared"] if "dissipated" in one["title"])
+    drawn = np.trapezoid(arrays["loop_force"], arrays["loop_slip"]) / 1e3
+    assert drawn == pytest.approx(dissipated, rel=0.02)
+    assert arrays["loop_slip"].size < LOOP_FINER * arrays["time"].size / 4
+
+
+def test_a_lazily_opened_cube_serves_as_well(tmp_path: Path, cube: xr.Dataset) -> None:
+    store.save(cube, tmp_path / "cube.nc")
+    opened = store.open(tmp_path / "cube.nc", lazily=True)
+    about, _ = unpack(Rerun(opened).packed(0, 1, 2, 2))
+    opened.close()
+    assert about["compared"][0]["cube"] == pytest.approx(about["compared"][0]["history"], rel=1e-12)
