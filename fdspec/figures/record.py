@@ -126,7 +126,7 @@ def _title(motion: GroundMotion) -> str:
     numbers = (
         f"PGA {found.pga / G:.3g} g",
         f"PGV {found.pgv:.3g} m/s",
-        f"PGD {found.pgd * 1e3:.3g} mm",
+        f"PGD {found.pgd:.3g} m",
         f"Arias intensity {found.arias:.3g} m/s",
         f"CAV {found.cav:.3g} m/s",
         f"dt {motion.dt:g} s",

@@ -119,7 +119,7 @@ def origins(motions: Iterable[Motion]) -> str:
     stand_ins = [motion.name for motion in known if motion.source.startswith(STAND_IN)]
     told = []
     if own:
-        told.append(f"The study's records, from the user's own files: {', '.join(own)}.")
+        told.append(f"From the user's own files: {', '.join(own)}.")
     if stand_ins:
         told.append(
             f"Stand-ins: {', '.join(stand_ins)}. Each is another real record of the same earthquake; "

@@ -102,7 +102,7 @@ def test_record_says_which_it_is_and_its_numbers(motions, spectra) -> None:
     assert numbers.split("   ") == [
         f"PGA {found.pga / G:.3g} g",
         f"PGV {found.pgv:.3g} m/s",
-        f"PGD {found.pgd * 1e3:.3g} mm",
+        f"PGD {found.pgd:.3g} m",
         f"Arias intensity {found.arias:.3g} m/s",
         f"CAV {found.cav:.3g} m/s",
         "dt 0.01 s",

@@ -91,13 +91,11 @@ def test_the_user_s_own_files_are_told_from_stand_ins():
     ]
     motions = [own[0], fdspec.load_record("FSR2"), own[1], MOTION]
     assert provenance("x", {}, motions)["comment"] == (
-        "The study's records, from the user's own files: FSR1, FMR2. "
+        "From the user's own files: FSR1, FMR2. "
         "Stand-ins: FSR2. Each is another real record of the same earthquake; "
         "the study's own files cannot be shipped."
     )
-    assert provenance("x", {}, own)["comment"] == (
-        "The study's records, from the user's own files: FSR1, FMR2."
-    )
+    assert provenance("x", {}, own)["comment"] == ("From the user's own files: FSR1, FMR2.")
 
 
 def test_comment_alone():

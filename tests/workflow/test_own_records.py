@@ -28,9 +28,7 @@ def test_a_linked_record_reaches_the_cube(folder, capsys):
     assert main(["sweep", "small.toml", "-o", "small.nc"]) == 0
     assert capsys.readouterr().err == ""
     cube = fdspec.open("small.nc")
-    assert cube.attrs["comment"].startswith(
-        "The study's records, from the user's own files: FSR1. Stand-ins: FMR1."
-    )
+    assert cube.attrs["comment"].startswith("From the user's own files: FSR1. Stand-ins: FMR1.")
     own, stand_in = (str(source) for source in cube["source"].values)
     assert own.startswith(
         "the user's own FSR1: KAK090.AT2 (PEER AT2), KOBE 01/16/95 2046, KAKOGAWA 090; SHA-256 "
