@@ -119,7 +119,7 @@ def _span(motion: GroundMotion, dt_out: object, free_vibration: object) -> Span:
     outputs = math.floor(total / every + 1e-9) + 1
     if outputs > MAX_OUTPUTS:
         raise InvalidInput(
-            f"dt_out {every:g} s gives {outputs:.6g} outputs over {total:g} s; at most {MAX_OUTPUTS} are kept, "
+            f"dt_out {every:g} s gives {outputs:g} outputs over {total:g} s; at most {MAX_OUTPUTS} are kept, "
             f"so it must be at least {total / (MAX_OUTPUTS - 1):.3g} s"
         )
     return Span(free_steps, float(every), outputs)
