@@ -42,11 +42,11 @@ def check_records(folder: str, link: bool, as_json: bool) -> None:
     the others. --link takes what was found, never a candidate; `fdspec records link` takes one.
     """
     from fdspec.progress import progress
-    from fdspec.records.check import check_folder, link_found
+    from fdspec.records.check import check_folder, files_below, link_found
     from fdspec.records.links import links
 
-    total = sum(path.is_file() for path in Path(folder).rglob("*"))
-    with progress(total, "files") as done:
+    files, _ = files_below(folder)
+    with progress(len(files), "files") as done:
         check = check_folder(folder, on_file=lambda _: done(1))
     new = link_found(check) if link else {}
     report = _as_json if as_json else _as_text
@@ -85,7 +85,7 @@ def _as_text(folder: str, check: Check, known: Mapping[str, Link]) -> str:
 
     lines = [table(HEAD, _rows(folder, check), left=HEAD), "", _count(check)]
     if check.unread:
-        lines += ["", f"{counted(len(check.unread), 'file')} of {check.files} not read:"]
+        lines += ["", f"not read ({len(check.unread)}):"]
         lines += [f"  {_short(reason)}" for _, reason in check.unread[:UNREAD]]
         if len(check.unread) > UNREAD:
             lines.append(f"  and {len(check.unread) - UNREAD} more; --json lists all")

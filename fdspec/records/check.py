@@ -6,6 +6,7 @@ direction and PGA; for the others, components of the same event with the same PG
 
 from __future__ import annotations
 
+import os
 import re
 import warnings
 from collections.abc import Callable, Iterable
@@ -121,8 +122,7 @@ def check_folder(folder: str | Path, *, on_file: Callable[[Path], None] | None =
     if not root.is_dir():
         raise RecordError(f"{root}: is not a folder")
     matches: list[Match] = []
-    unread = []
-    files = sorted(path for path in root.rglob("*") if path.is_file())
+    files, unread = files_below(root)
     for path in files:
         if on_file is not None:
             on_file(path)
@@ -133,6 +133,24 @@ def check_folder(folder: str | Path, *, on_file: Callable[[Path], None] | None =
             continue
         matches += matches_of(path, motions.items())
     return Check(tuple(matches), tuple(unread), len(files))
+
+
+def files_below(folder: str | Path) -> tuple[list[Path], list[tuple[Path, str]]]:
+    """Return the files of a folder and of those in it, and which folders cannot be opened, with the reason."""
+    closed: list[tuple[Path, str]] = []
+
+    def refused(error: OSError) -> None:
+        closed.append((Path(error.filename), f"{error.filename}: cannot be read ({error.strerror})"))
+
+    paths = (Path(parent, name) for parent, _, names in os.walk(folder, onerror=refused) for name in names)
+    return sorted(filter(_may_be_record, paths)), closed
+
+
+def _may_be_record(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except OSError:  # no permission to ask: let its reader say so
+        return True
 
 
 def matches_of(path: Path, motions: Iterable[tuple[str, GroundMotion]]) -> list[Match]:

@@ -52,7 +52,7 @@ def read_bytes(path: str | os.PathLike[str]) -> bytes:
     except (OSError, ValueError) as error:  # ValueError: a path with a null character
         if isinstance(error, RecordError):
             raise
-        raise RecordError(f"{file}: cannot be read ({error})") from error
+        raise RecordError(f"{file}: cannot be read ({getattr(error, 'strerror', None) or error})") from error
 
 
 def decode(content: bytes, name: str) -> TextFile:

@@ -162,7 +162,7 @@ def test_check_reports_found_candidates_and_missing(own: Path, capsys: pytest.Ca
     ]
     assert lines[at + 3].strip() == "and 2 more; --json lists all"
     assert "8 files looked through: 1 found, 1 candidate, 7 missing" in lines
-    unread = lines.index("2 files of 8 not read:")
+    unread = lines.index("not read (2):")
     assert "cut.AT2" in lines[unread + 1]
     assert "expected 41 values" in lines[unread + 1]
     assert "notes.txt" in lines[unread + 2]
@@ -175,7 +175,7 @@ def test_check_shortens_a_long_list_of_files_not_read(own: Path, capsys: pytest.
     for k in range(20):
         (own / f"z{k:02}.txt").write_text("x" * 400)
     lines = output(capsys, "check", str(own)).splitlines()
-    unread = lines.index("22 files of 28 not read:")
+    unread = lines.index("not read (22):")
     assert lines[unread + 9] == "  and 14 more; --json lists all"
     assert max(map(len, lines[unread : unread + 10])) <= 112
 

@@ -1,6 +1,8 @@
 """The user's own files: recognised, reported, linked, and loaded under the study's names from then on."""
 
 import math
+import os
+from pathlib import Path
 
 import pytest
 
@@ -102,6 +104,28 @@ def test_other_files_are_listed_and_not_raised(tmp_path):
     assert "expected 41 values" in check.unread[0][1]
     assert len(seen) == check.files == 2
     assert {check.status(entry.name) for entry in catalogue()} == {"missing"}
+
+
+def test_what_may_not_be_opened_is_listed(tmp_path, monkeypatch):
+    """Permissions mean nothing to the superuser, who may run the tests: they are refused by hand."""
+    (tmp_path / "open" / "closed").mkdir(parents=True)
+    for place in ("open", "open/closed"):
+        (tmp_path / place / "secret.AT2").write_text(at2("KOBE", "KAKOGAWA", "090", 0.345))
+    scandir, stat = os.scandir, Path.stat
+
+    def refuse(path):
+        raise PermissionError(13, "Permission denied", str(path))
+
+    monkeypatch.setattr("os.scandir", lambda path: refuse(path) if path.endswith("closed") else scandir(path))
+    monkeypatch.setattr(
+        Path, "stat", lambda path, **how: refuse(path) if path.suffix == ".AT2" else stat(path, **how)
+    )
+    check = check_folder(tmp_path)
+    reasons = {path.name: reason for path, reason in check.unread}
+    assert set(reasons) == {"closed", "secret.AT2"}
+    assert reasons["closed"].endswith("closed: cannot be read (Permission denied)")
+    assert "secret.AT2: cannot be read" in reasons["secret.AT2"]
+    assert check.matches == ()
 
 
 def test_a_folder_that_is_none(tmp_path):
@@ -257,8 +281,6 @@ def test_links_stand_in_the_user_s_configuration(monkeypatch, tmp_path):
 @pytest.mark.parametrize("name", ["FSR1", "FMR2"])
 def test_the_true_records_are_found(name):
     """Kakogawa 090 and Calexico 225 are among the real files."""
-    from pathlib import Path
-
     real = Path(__file__).resolve().parents[3] / "shared" / "records" / "real"
     if not real.is_dir():
         pytest.skip("needs real record files in ../shared/records, which this machine does not have")
