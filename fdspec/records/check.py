@@ -136,7 +136,7 @@ def check_folder(folder: str | Path, *, on_file: Callable[[Path], None] | None =
 
 
 def files_below(folder: str | Path) -> tuple[list[Path], list[tuple[Path, str]]]:
-    """Return the files of a folder and of those in it, and which folders cannot be opened, with the reason."""
+    """Return the files of a folder and of those in it, and which folders cannot be opened, with reasons."""
     closed: list[tuple[Path, str]] = []
 
     def refused(error: OSError) -> None:
