@@ -11,6 +11,8 @@ __version__ = "0.1.0"
 
 if TYPE_CHECKING:
     from fdspec.building import Building
+    from fdspec.choice.distribution import optimise
+    from fdspec.choice.pretension import best_pretension
     from fdspec.damping import DampingMatrix, ModalDamping, RayleighDamping
     from fdspec.motion import GroundMotion
     from fdspec.records import load_record, read_record
@@ -29,9 +31,11 @@ __all__ = [
     "RayleighDamping",
     "Study",
     "__version__",
+    "best_pretension",
     "export",
     "load_record",
     "open",
+    "optimise",
     "read_record",
     "save",
     "simulate",
@@ -46,9 +50,11 @@ _HOME = {
     "ModalDamping": "damping",
     "RayleighDamping": "damping",
     "Study": "study",
+    "best_pretension": "choice",
     "export": "store",
     "load_record": "records",
     "open": "store",
+    "optimise": "choice",
     "read_record": "records",
     "save": "store",
     "simulate": "simulate",

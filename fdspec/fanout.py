@@ -84,12 +84,14 @@ def fan_out(
     progress: bool,
     client: Client | None = None,
     finished: int = 0,
+    what: str = "histories",
 ) -> list[Result]:
     """Return the work's result for every task, in their order.
 
     work: a function of a module, or a partial of one, which other processes can import; each: histories
     of an item; warm: loads the kernels, compiling them where no cache holds them, before many threads want
-    them; client: a cluster that takes the tasks instead; finished: histories done before, for the bar.
+    them; client: a cluster that takes the tasks instead; finished: histories done before, for the bar;
+    what: what the bar calls them.
     """
     if workers is not None and workers < 1:
         raise InvalidInput(f"workers must be at least 1, got {workers}")
@@ -97,7 +99,7 @@ def fan_out(
     if client is not None:
         from fdspec.cluster import gather
 
-        with progress_bar(total, "histories", shown=progress, finished=finished) as done:
+        with progress_bar(total, what, shown=progress, finished=finished) as done:
 
             def tell(task: Task) -> None:
                 done(each * task.items.size)
@@ -106,7 +108,7 @@ def fan_out(
     records = [dask.delayed(motion, pure=False, traverse=False) for motion in motions]
     counted = dask.delayed(partial(_counted, work, each), pure=False, traverse=False)
     graph = [counted(task.items, records[task.record]) for task in tasks]
-    with progress_bar(total, "histories", shown=progress, finished=finished) as done, _reported(done):
+    with progress_bar(total, what, shown=progress, finished=finished) as done, _reported(done):
         with interrupted_at_last():
             warm()
         parts = dask.compute(*graph, scheduler=scheduler, num_workers=workers or cores())

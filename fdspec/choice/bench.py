@@ -1,0 +1,315 @@
+"""One building under its records: what every set of slip forces does to it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fdspec.building import Building, Frame
+from fdspec.cube import named
+from fdspec.errors import InvalidInput
+from fdspec.fanout import fan_out, plan
+from fdspec.measures.ensemble import statistic_of
+from fdspec.measures.indices import Weights, needs_of, value_of
+from fdspec.motion import GroundMotion
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+RESPONSES: Final = (
+    "peak_acceleration",
+    "peak_displacement",
+    "peak_velocity",
+    "peak_base_shear",
+    "residual_displacement",
+    "slip_travel",
+    "dissipated_energy",
+    "input_energy",
+    "status",
+    "strain_energy_area",
+    "peak_strain_energy",
+)
+"""What a history gives.  Of many storeys it is the largest: displacements and residuals are then those
+relative to the floor below."""
+
+BARE: Final = {
+    "elastic_acceleration": "peak_acceleration",
+    "bare_peak_displacement": "peak_displacement",
+    "bare_peak_base_shear": "peak_base_shear",
+    "bare_strain_energy_area": "strain_energy_area",
+    "bare_peak_strain_energy": "peak_strain_energy",
+}
+"""What an index calls a response of the frame without braces -> that response."""
+
+STRAIN: Final = ("strain_energy_area", "peak_strain_energy")
+
+SECONDS_PER_SAMPLE: Final = 60e-9
+"""Core time of one single-storey history for each sample, roughly; for plans, not for results."""
+
+FRAME_SECONDS_PER_SAMPLE: Final = 0.8e-6
+"""The same of a frame, times storeys to the power 1.5."""
+
+
+@dataclass(frozen=True, eq=False)
+class Bench:
+    """A building, the records it is tried under, and the index it is judged by.
+
+    The building's own slip forces do not matter, only the ratio of kinetic to static friction of each storey
+    and whether a storey has a brace at all.
+    """
+
+    building: Building
+    motions: Sequence[GroundMotion]
+    index: str | Weights = "acceleration"
+    statistic: str = "mean"
+    workers: int | None = None
+    """Threads; one a core unless given, and 0 stays in the caller's."""
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.building, Building):
+            raise InvalidInput(f"building must be a Building, got {type(self.building).__name__}")
+        object.__setattr__(self, "motions", named(self.motions))
+        statistic_of(self.statistic)
+        needs_of(self.index)
+        if not self.braced_storeys.any():
+            raise InvalidInput("the building has no brace (brace_stiffness 0): there is no damper to choose")
+
+    @property
+    def braced_storeys(self) -> NDArray[np.bool_]:
+        """(N,): where there is a brace."""
+        return self.building.brace_stiffness > 0.0
+
+    @cached_property
+    def kinetic_ratio(self) -> FloatArray:
+        """(N,): kinetic over static slip force; 1 where the building's own tells none."""
+        static, kinetic = self.building.slip_force, self.building.kinetic_slip_force
+        tells = np.isfinite(static) & (static > 0.0)
+        return np.divide(kinetic, static, out=np.ones_like(static), where=tells)
+
+    @cached_property
+    def never_slips(self) -> FloatArray:
+        """(N,) N: slip forces that no record reaches, little above those that one does.
+
+        With the storey stuck, floor and brace as one obey (m_f + m_d) a = P - B with the brace's force B, and
+        the reaction is R = (m_d P + m_f B) / (m_f + m_d) = m_d a + B; so |R| is at most
+        m_d max|a| + k_d max|drift| + c_d max|drift rate|.
+        """
+        if self.storeys == 1:
+            name = ("peak_acceleration", "peak_displacement", "peak_velocity")
+            rows = [np.array([row]) for row in zip(*(self.braced[of] for of in name), strict=True)]
+            reach = np.max([_reach(self.building, *row.T) for row in rows], axis=0)
+        else:
+            reach = np.max([_reach_of_frame(self.building, motion) for motion in self.motions], axis=0)
+        return np.where(self.braced_storeys, reach * (1.0 + 1e-9), 0.0)
+
+    @cached_property
+    def bare(self) -> dict[str, FloatArray]:
+        """Response -> (r,): of the frame without its braces."""
+        return self._limit(_bare(self.building))
+
+    @cached_property
+    def braced(self) -> dict[str, FloatArray]:
+        """Response -> (r,): with dampers that never slip."""
+        return {name: values[0] for name, values in self.respond(np.full((1, self.storeys), np.inf)).items()}
+
+    @cached_property
+    def braced_storey_shear(self) -> FloatArray:
+        """(N,) N: peak storey shears with dampers that never slip, averaged over the records."""
+        if self.storeys == 1:
+            return np.array([self.braced["peak_base_shear"].mean()])
+        peaks = [_stuck(self.building, motion)["peak_storey_shear"] for motion in self.motions]
+        return np.asarray(np.mean(peaks, axis=0))
+
+    @property
+    def storeys(self) -> int:
+        """Number of storeys N."""
+        return self.building.n_storeys
+
+    def respond(self, slip_force: FloatArray) -> dict[str, FloatArray]:
+        """Run the building with each row of slip forces (c, N) under every record: response -> (c, r).
+
+        Strain and input energies cost time, and are NaN unless the index takes them.
+        """
+        forces = np.where(self.braced_storeys, np.asarray(slip_force, dtype=np.float64), 0.0)
+        kinetic = np.where(np.isfinite(forces), forces * self.kinetic_ratio, np.inf)
+        return _run(self.building, forces, kinetic, self.motions, needs_of(self.index), self.workers)
+
+    def index_of(self, responses: Mapping[str, FloatArray]) -> FloatArray:
+        """The index of responses (c, r); inf where a history did not end well."""
+        bare = {name: self.bare[of] for name, of in BARE.items()}
+        found = value_of(self.index, {**responses, **bare})
+        return np.where(responses["status"] == 0.0, found, np.inf)
+
+    def judge(self, slip_force: FloatArray) -> FloatArray:
+        """The index of each row of slip forces (c, N), over the records together: (c,)."""
+        found = self.index_of(self.respond(slip_force))
+        return np.asarray(statistic_of(self.statistic)(found, axis=1))
+
+    def _limit(self, building: Building) -> dict[str, FloatArray]:
+        # One storey without a brace never slips; in a frame it is no storey that could.
+        force = np.full((1, self.storeys), np.inf if self.storeys == 1 else 0.0)
+        found = _run(building, force, force, self.motions, needs_of(self.index), self.workers)
+        for motion, peak in zip(self.motions, found["peak_displacement"][0], strict=True):
+            if not peak > 0.0:
+                raise InvalidInput(
+                    f"{motion.name or 'the motion'} does not move the bare frame: there is nothing to reduce"
+                )
+        return {name: values[0] for name, values in found.items()}
+
+
+def _bare(building: Building) -> Building:
+    none = np.zeros(building.n_storeys)
+    return Building(
+        building.floor_mass, building.storey_stiffness, none, none, none, none, building.damping, none
+    )
+
+
+def _reach(
+    building: Building, acceleration: FloatArray, drift: FloatArray, drift_rate: FloatArray
+) -> FloatArray:
+    """Bound on the reactions (N,) of dampers that never slip, from peaks (N,)."""
+    return np.asarray(
+        building.brace_mass * acceleration
+        + building.brace_stiffness * drift
+        + building.brace_damping * drift_rate
+    )
+
+
+def _reach_of_frame(building: Building, motion: GroundMotion) -> FloatArray:
+    peak = _stuck(building, motion)
+    velocity = peak["peak_velocity"] + np.append(0.0, peak["peak_velocity"][:-1])
+    return _reach(building, peak["peak_acceleration"], peak["peak_drift"], velocity)
+
+
+def _stuck(building: Building, motion: GroundMotion) -> dict[str, FloatArray]:
+    """Peaks (N,) of the storeys with dampers that never slip, by name."""
+    from fdspec.kernels.mdof import STOREY_RESULTS
+    from fdspec.many_storeys import peaks_of
+
+    never = np.where(building.brace_stiffness > 0.0, np.inf, 0.0)
+    by_storey, _ = peaks_of(_with(building.frame, never, never), motion, certify=False)
+    return dict(zip(STOREY_RESULTS, by_storey, strict=True))
+
+
+def _with(frame: Frame, slip_force: FloatArray, kinetic_slip_force: FloatArray) -> Frame:
+    from fdspec.kernels.frame import KINETIC_SLIP_FORCE, SLIP_FORCE
+
+    properties = frame.properties.copy()
+    properties[SLIP_FORCE] = slip_force
+    properties[KINETIC_SLIP_FORCE] = kinetic_slip_force
+    return frame._replace(properties=properties)
+
+
+def _run(
+    building: Building,
+    slip_force: FloatArray,
+    kinetic_slip_force: FloatArray,
+    motions: Sequence[GroundMotion],
+    needs: Collection[str],
+    workers: int | None,
+) -> dict[str, FloatArray]:
+    """Run a building with each row of slip forces (c, N) under every motion: response -> (c, r)."""
+    count, storeys = slip_force.shape
+    if storeys == 1:
+        work: Any = partial(
+            _run_storey, np.array(building.storey[:6]), slip_force[:, 0], kinetic_slip_force[:, 0]
+        )
+        each = SECONDS_PER_SAMPLE
+    else:
+        work = partial(_run_frame, building.frame, slip_force, kinetic_slip_force)
+        each = FRAME_SECONDS_PER_SAMPLE * storeys**1.5
+    seconds = [count * motion.n * each * (4.0 if set(STRAIN) & set(needs) else 1.0) for motion in motions]
+    tasks = plan(count, seconds, None, "candidates")
+    work = partial(work, needs)
+    if workers == 0:
+        parts = [work(items, motions[record]) for record, items in tasks]
+    else:
+        parts = fan_out(
+            work,
+            motions,
+            tasks,
+            each=1,
+            warm=_warm,
+            workers=workers,
+            scheduler="threads",
+            progress=False,
+        )
+    table = np.empty((len(RESPONSES), count, len(motions)))
+    for (record, items), part in zip(tasks, parts, strict=True):
+        table[:, items, record] = part
+    return dict(zip(RESPONSES, table, strict=True))
+
+
+def _warm() -> None:
+    import fdspec.columns
+    import fdspec.many_storeys
+    import fdspec.strain  # noqa: F401
+
+
+def _run_storey(
+    frame: FloatArray,
+    slip_force: FloatArray,
+    kinetic_slip_force: FloatArray,
+    needs: Collection[str],
+    items: IntArray,
+    motion: GroundMotion,
+) -> FloatArray:
+    """Run one single-storey frame (6,) with some of the slip forces (c,): (len(RESPONSES), items)."""
+    from fdspec.columns import integrate_columns
+    from fdspec.kernels.sdof import RESULTS
+
+    force, kinetic = slip_force[items], kinetic_slip_force[items]
+    rows = frame[np.newaxis]
+    _, found = integrate_columns(rows, force, kinetic, motion, energy="input_energy" in needs, certify=False)
+    table = np.full((len(RESPONSES), items.size), np.nan)
+    for row, name in enumerate(RESPONSES):
+        if name in RESULTS and (name in needs or name != "input_energy"):
+            table[row] = found[0, :, RESULTS.index(name)]
+    table[RESPONSES.index("residual_displacement")] = np.abs(
+        found[0, :, RESULTS.index("residual_displacement")]
+    )
+    if set(STRAIN) & set(needs):
+        from fdspec.strain import strain_of_columns
+
+        table[-2:] = strain_of_columns(rows, force, kinetic, motion)[0].T
+    return table
+
+
+def _run_frame(
+    frame: Frame,
+    slip_force: FloatArray,
+    kinetic_slip_force: FloatArray,
+    needs: Collection[str],
+    items: IntArray,
+    motion: GroundMotion,
+) -> FloatArray:
+    """Run a frame with some of the rows of slip forces (c, N): (len(RESPONSES), items)."""
+    from fdspec.kernels.mdof import STOREY_RESULTS, TOTALS
+    from fdspec.many_storeys import peaks_of
+    from fdspec.strain import strain_of_frame
+
+    table = np.full((len(RESPONSES), items.size), np.nan)
+    for column, item in enumerate(items):
+        one = _with(frame, slip_force[item], kinetic_slip_force[item])
+        by_storey, totals = peaks_of(one, motion, certify=False)
+        row = dict(zip(STOREY_RESULTS, by_storey, strict=True))
+        total = dict(zip(TOTALS, totals, strict=True))
+        residual = np.diff(row["residual_displacement"], prepend=0.0)
+        found = {
+            "peak_acceleration": row["peak_acceleration"].max(),
+            "peak_displacement": row["peak_drift"].max(),
+            "peak_velocity": row["peak_velocity"].max(),
+            "peak_base_shear": row["peak_storey_shear"][0],
+            "residual_displacement": np.abs(residual).max(),
+            "slip_travel": row["slip_travel"].max(),
+            **{name: total[name] for name in ("dissipated_energy", "input_energy", "status")},
+        }
+        if set(STRAIN) & set(needs):
+            found |= dict(zip(STRAIN, strain_of_frame(one, motion)[:2], strict=True))
+        table[:, column] = [found.get(name, np.nan) for name in RESPONSES]
+    return table

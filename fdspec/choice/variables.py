@@ -1,0 +1,79 @@
+"""The variables of what a choice comes to: best pretensions and slip forces."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from fdspec.variables import CUBE, TEXT, Registry, Variable, motion_variables, registry_of
+
+_RECORD: Final = ("record",)
+_POINT: Final = ("stiffness_ratio", "period")
+_EACH: Final = (*_RECORD, *_POINT)
+
+
+def _best(dims: tuple[str, ...], of_whom: str) -> tuple[Variable, ...]:
+    return (
+        Variable("pretension", dims, "N", f"pretension with the least index {of_whom}"),
+        Variable("slip_force", dims, "N", "friction force at which the damper then starts to slip"),
+        Variable("index", dims, "1", f"the least index {of_whom}"),
+        Variable("band_start", dims, "N", "least pretension of the stretch about the best with a good index"),
+        Variable("band_end", dims, "N", "largest pretension of that stretch; inf where it has no end"),
+        Variable(
+            "bands",
+            (*dims, "stretch", "bound"),
+            "N",
+            "every stretch of pretensions with a good index; NaN where there are fewer",
+        ),
+    )
+
+
+_RESPONSES: Final = ("peak_acceleration", "peak_displacement", "peak_base_shear", "residual_displacement")
+_SHARED: Final = (
+    CUBE["stiffness_ratio"],
+    CUBE["period"],
+    Variable("stretch", ("stretch",), "1", "number of the stretch, from 1 upwards in pretension", "int64"),
+    Variable("bound", ("bound",), "", "which end of the stretch", TEXT),
+    *(Variable(name, _EACH, CUBE[name].units, f"{CUBE[name].long_name}, at the best") for name in _RESPONSES),
+    Variable(
+        "bare_acceleration", ("record", "period"), "m/s^2", "peak acceleration of the frame without brace"
+    ),
+    Variable("braced_acceleration", _EACH, "m/s^2", "peak acceleration with a damper that never slips"),
+)
+
+BEST: Final[Registry] = registry_of(motion_variables(_RECORD), _best(_EACH, "of the record"), _SHARED)
+"""The best pretension of each record."""
+
+BEST_FOR_ALL: Final[Registry] = registry_of(
+    motion_variables(_RECORD),
+    _best(_POINT, "of all records together"),
+    _SHARED,
+    (
+        Variable("index_of_record", _EACH, "1", "index of the record at that pretension"),
+        Variable("regret", _EACH, "1", "index of the record above its own least, as a share of that"),
+    ),
+)
+"""The best pretension of an ensemble."""
+
+_STOREY: Final = ("storey",)
+
+OPTIMUM: Final[Registry] = registry_of(
+    motion_variables(_RECORD),
+    (
+        Variable("storey", _STOREY, "1", "storey, counted from 1 at the ground", "int64"),
+        Variable("distribution", ("distribution",), "", "how slip forces differ from storey to storey", TEXT),
+        Variable("slip_force", _STOREY, "N", "friction force at which the damper starts to slip"),
+        Variable("index", (), "1", "index of all records together"),
+        Variable("index_of_record", _RECORD, "1", "index of the record"),
+        Variable(
+            "start_slip_force",
+            ("distribution", "storey"),
+            "N",
+            "best slip forces of the distributions begun with",
+        ),
+        Variable("start_index", ("distribution",), "1", "index of all records together with those"),
+        Variable("generation", ("generation",), "1", "generation of the search, the start being 0", "int64"),
+        Variable("generation_index", ("generation",), "1", "least index up to that generation"),
+        Variable("evaluations", (), "1", "sets of slip forces tried", "int64"),
+    ),
+)
+"""The best distribution of slip forces over a building."""
