@@ -7,13 +7,18 @@ keeps it, and when the worker that held it dies it is made again.
 from __future__ import annotations
 
 import logging
+import socket
 import time
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from functools import cache
+from itertools import islice
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fdspec import __version__
 from fdspec.errors import ClusterError, FdspecError
 from fdspec.motion import GroundMotion
 
@@ -37,7 +42,43 @@ DEATHS: Final = 2
 PATIENCE: Final = 120.0
 """s that a lost scheduler, or the first worker, is waited for."""
 
+CONNECT: Final = 30.0
+"""s that a scheduler may take to answer."""
+
 log = logging.getLogger(__name__)
+
+
+@contextmanager
+def connected(address: str) -> Iterator[Client]:
+    """Give a client of the scheduler at this address, such as tcp://host:8786."""
+    with _installed():
+        from distributed import Client
+    try:
+        client = Client(address, timeout=CONNECT, set_as_default=False)
+    except (OSError, ValueError) as error:
+        raise ClusterError(f"there is no scheduler at {address}: {error}") from error
+    with client:
+        log.info("scheduler %s with %d workers", address, len(client.scheduler_info(-1)["workers"]))
+        yield client
+
+
+@contextmanager
+def processes(count: int) -> Iterator[Client]:
+    """Give a client of so many worker processes on this machine, each of one thread."""
+    with _installed():
+        from distributed import Client, LocalCluster
+    with (
+        LocalCluster(
+            n_workers=count,
+            threads_per_worker=1,
+            processes=True,
+            dashboard_address=None,
+            silence_logs=logging.CRITICAL,
+        ) as cluster,
+        Client(cluster, set_as_default=False) as client,
+    ):
+        log.info("%d worker processes", count)
+        yield client
 
 
 def gather(
@@ -89,6 +130,7 @@ def _round(
     """
     from distributed import KilledWorker, as_completed
 
+    here = version()
     shared = client.submit(_itself, work, pure=False)
     records: dict[int, Future[Any]] = {}
     index_of: dict[Future[Any], int] = {}
@@ -102,12 +144,20 @@ def _round(
                 del records[other]
             records[task.record] = client.submit(_itself, motions[task.record], pure=False)
         future = client.submit(
-            _run, shared, task.items, records[task.record], pure=False, retries=RETRIES, priority=-index
+            _run,
+            here,
+            shared,
+            task.items,
+            records[task.record],
+            pure=False,
+            retries=RETRIES,
+            priority=-index,
         )
         index_of[future] = index
         return future
 
-    completed = as_completed([send(index) for index, _ in zip(waiting, range(IN_FLIGHT), strict=False)])
+    first = [send(index) for index in islice(waiting, IN_FLIGHT)]
+    completed = as_completed(first, loop=client.loop)
     try:
         for future in completed:
             index = index_of.pop(future)
@@ -120,18 +170,42 @@ def _round(
                 yield index, error
             else:  # cancelled: the scheduler has gone, and all that it knew
                 return
-            for following in waiting:
+            for following in islice(waiting, 1):
                 completed.add(send(following))
-                break
     finally:
         client.cancel(list(index_of))
+
+
+@contextmanager
+def _installed() -> Iterator[None]:
+    try:
+        yield
+    except ImportError as error:
+        raise ClusterError(
+            f"workers in processes need more than fdspec alone ({error}): pip install 'fdspec[cluster]'"
+        ) from error
+
+
+@cache
+def version() -> str:
+    """Say which fdspec runs here, to the last character of its kernels."""
+    from fdspec.jit import source_key
+
+    return f"{__version__}, kernels {source_key()}"
 
 
 def _itself(value: Result) -> Result:
     return value
 
 
-def _run(work: Callable[[IntArray, GroundMotion], Result], items: IntArray, motion: GroundMotion) -> Result:
+def _run(
+    expected: str, work: Callable[[IntArray, GroundMotion], Result], items: IntArray, motion: GroundMotion
+) -> Result:
+    if version() != expected:
+        raise ClusterError(
+            f"worker {socket.gethostname()} runs fdspec {version()}, this is fdspec {expected}; "
+            "install one version everywhere"
+        )
     return work(items, motion)
 
 

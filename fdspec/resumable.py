@@ -151,7 +151,8 @@ def _agreed(path: Path, identity: Mapping[str, Any]) -> Blocks:
     told = differences(held, identity)
     if told:
         raise StoreError(
-            f"{path} holds another sweep: {'; '.join(told)}; name another store, or start over (restart)"
+            f"{path} holds another sweep: {'; '.join(told)}; name another store, or start over "
+            "with --restart (restart=True)"
         )
     return blocks
 

@@ -210,6 +210,12 @@ BUILDING_CUBE: Final[Registry] = registry_of(
         ),
         Variable("peak_storey_shear", _EACH_STOREY, "N", "peak shear force of frame and brace together"),
         Variable(
+            "peak_brace_displacement",
+            _EACH_STOREY,
+            "m",
+            "peak displacement of the brace relative to the ground",
+        ),
+        Variable(
             "residual_drift", _EACH_STOREY, "m", "final displacement of the floor relative to the floor below"
         ),
         Variable(

@@ -9,7 +9,7 @@ from typing import Final
 import click
 
 from fdspec.cli.commands import fdspec
-from fdspec.errors import FdspecError, InvalidInput, StoreError
+from fdspec.errors import DiskError, FdspecError, InvalidInput, StoreError
 
 DONE: Final = 0
 FAILED: Final = 1
@@ -40,6 +40,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return _fail(f"{error.format_message()} (fdspec: see '{path} --help')", WRONG_USAGE)
         except click.ClickException as error:
             return _fail(error.format_message(), WRONG_USAGE)
+        except DiskError as error:
+            return _fail(str(error), FAILED)
         except (InvalidInput, StoreError) as error:
             return _fail(str(error), WRONG_USAGE)
         except FdspecError as error:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import logging
 import math
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fdspec.cli.table import counted, seconds, size, table
+from fdspec.cli.table import counted, grouped, seconds, size, table
 from fdspec.measures import best_damper
 from fdspec.units import G
 
@@ -16,6 +18,14 @@ if TYPE_CHECKING:
     import xarray as xr
 
 AXES = ("record", "stiffness_ratio", "pretension", "period")
+
+MANY = 100
+"""Records; of more no table is shown."""
+
+LISTED = 20
+"""Histories that did not end well and are shown one by one."""
+
+log = logging.getLogger(__name__)
 
 SHORT = 0.6
 """s; up to this period the study finds friction dampers to help."""
@@ -25,14 +35,29 @@ def summary(cube: xr.Dataset, path: Path, elapsed: float) -> str:
     """Return a table of the records and where the cube is."""
     axes = " x ".join(counted(cube.sizes[dim], dim.replace("_", " ")) for dim in AXES)
     histories = counted(math.prod(cube.sizes[dim] for dim in AXES), "history", "histories")
-    written = f"{path} ({size(path.stat().st_size)})"
+    written = f"{path} ({size(_bytes(path))})"
     lines = [f"{written}: {axes} = {histories}, in {seconds(elapsed)}"]
-    if "peak_acceleration" in cube:
+    if "peak_acceleration" in cube and cube.sizes["record"] <= MANY:
         lines = [_records_table(cube), "", *lines]
     return "\n".join(lines)
 
 
 def _records_table(cube: xr.Dataset) -> str:
+    """Table of the records, read one by one: the cube may be larger than memory."""
+    wanted = cube[[name for name in ("peak_acceleration", "elastic_acceleration", "status") if name in cube]]
+    tables = [_columns(wanted.isel(record=[k]).load()) for k in range(cube.sizes["record"])]
+    rows = [[cells[0] for _, cells in columns] for columns in tables]
+    explained = ["min, max: smallest and largest peak absolute acceleration of the floor."]
+    if "elastic_acceleration" in cube:
+        explained += [
+            "Best damper for periods in a band: pretension (kN), stiffness ratio (SR), and peak acceleration",
+            "as share of the frame's without brace, averaged over the band; the lowest on the grid.",
+        ]
+    head = [name for name, _ in tables[0]]
+    return "\n".join([table(head, rows, left=("record",)), "", *explained])
+
+
+def _columns(cube: xr.Dataset) -> list[tuple[str, list[str]]]:
     peak = cube["peak_acceleration"].where(cube["status"] == 0) / G
     dims = ["stiffness_ratio", "pretension", "period"]
     columns = [
@@ -41,7 +66,6 @@ def _records_table(cube: xr.Dataset) -> str:
         ("min g", [f"{value:.3f}" for value in peak.min(dims).values]),
         ("max g", [f"{value:.3f}" for value in peak.max(dims).values]),
     ]
-    explained = ["min, max: smallest and largest peak absolute acceleration of the floor."]
     if "elastic_acceleration" in cube:
         bands = [
             (f"to {SHORT:g} s", cube.isel(period=np.flatnonzero(cube["period"].values <= SHORT))),
@@ -50,12 +74,7 @@ def _records_table(cube: xr.Dataset) -> str:
         for name, band in bands:
             if band.sizes["period"]:
                 columns += _best(name, band)
-        explained += [
-            "Best damper for periods in a band: pretension (kN), stiffness ratio (SR), and peak acceleration",
-            "as share of the frame's without brace, averaged over the band; the lowest on the grid.",
-        ]
-    rows = zip(*(cells for _, cells in columns), strict=True)
-    return "\n".join([table([head for head, _ in columns], rows, left=("record",)), "", *explained])
+    return columns
 
 
 def _best(name: str, band: xr.Dataset) -> list[tuple[str, list[str]]]:
@@ -70,3 +89,28 @@ def _best(name: str, band: xr.Dataset) -> list[tuple[str, list[str]]]:
         ("SR", told(best["stiffness_ratio"].values, "{:.3g}")),
         ("share", told(best["acceleration_ratio"].values, "{:.0%}")),
     ]
+
+
+def statuses(cube: xr.Dataset) -> tuple[str, int]:
+    """Return how the histories ended, with where those are that did not end well, and the number of these."""
+    from fdspec.measures.statuses import failed_cells, status_counts
+
+    counts = status_counts(cube)
+    told = "status: " + ", ".join(f"{grouped(number)} {meaning}" for meaning, number in counts.items())
+    log.info("%s", told)
+    lines = [told]
+    for number, cell in enumerate(failed_cells(cube)):
+        log.warning("%s", cell)
+        if number < LISTED:
+            lines.append(f"  {cell}")
+    failed = sum(number for meaning, number in counts.items() if meaning != "ok")
+    if failed > LISTED:
+        lines.append(f"  and {grouped(failed - LISTED)} more; --log lists all, as does fdspec check --all")
+    return "\n".join(lines), failed
+
+
+def _bytes(path: Path) -> int:
+    """Size of a file, or of all files of a store."""
+    if path.is_file():
+        return path.stat().st_size
+    return sum(Path(folder, name).stat().st_size for folder, _, names in os.walk(path) for name in names)

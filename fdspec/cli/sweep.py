@@ -13,6 +13,7 @@ import click
 
 from fdspec.cli.output import force_option, free
 from fdspec.cli.record_options import file_options, named_records
+from fdspec.cli.run_options import STORE_SUFFIX, client_of, kept, logged, run_options, store_of
 from fdspec.cli.table import grouped, seconds, size
 
 if TYPE_CHECKING:
@@ -27,7 +28,8 @@ if TYPE_CHECKING:
     "-o",
     "--output",
     metavar="FILE",
-    help="The cube, netCDF.  [default: study.nc, or STUDY.nc for STUDY.toml]",
+    help="The cube: netCDF, or a Zarr store where the name ends in .zarr.  [default: study.nc, or STUDY.nc "
+    "for STUDY.toml]",
 )
 @click.option(
     "--record",
@@ -42,13 +44,13 @@ if TYPE_CHECKING:
     "--raw", is_flag=True, help="Leave the catalogue's records as recorded, not scaled to the study's PGA."
 )
 @click.option("--no-certify", is_flag=True, help="Leave out the energy balance of each history; faster.")
-@click.option("--workers", type=click.IntRange(min=1), metavar="N", help="Threads.  [default: one a core]")
 @click.option(
     "--dry-run", is_flag=True, help="Say how many histories, the expected time and size; compute nothing."
 )
 @click.option(
     "--print-study", is_flag=True, help="Print the study as a study file, to be edited; compute nothing."
 )
+@run_options
 @force_option
 def sweep(
     study_file: str | None,
@@ -59,9 +61,14 @@ def sweep(
     channel: str | None,
     raw: bool,
     no_certify: bool,
-    workers: int | None,
     dry_run: bool,
     print_study: bool,
+    threads: int | None,
+    workers: int | None,
+    scheduler: str | None,
+    resumable: bool | None,
+    restart: bool,
+    log: str | None,
     force: bool,
 ) -> None:
     """Compute the cube of a study: peaks over record, stiffness ratio, pretension and period.
@@ -72,7 +79,10 @@ def sweep(
     \b
         fdspec sweep --print-study > mine.toml
     """
+    from fdspec.grid import GRID_FIELDS
     from fdspec.study import Study
+    from fdspec.sweep import estimate
+    from fdspec.sweep import sweep as compute
 
     started = time.perf_counter()
     study = Study() if study_file is None else Study.read(study_file)
@@ -87,24 +97,48 @@ def sweep(
     if print_study:
         click.echo(study.to_toml(), nl=False)
         return
-    path = free(output or ("study.nc" if study_file is None else f"{Path(study_file).stem}.nc"), force=force)
+    if sum(one is not None for one in (threads, workers, scheduler)) > 1:
+        raise click.UsageError("--threads, --workers and --scheduler exclude each other")
+    path = Path(output or ("study.nc" if study_file is None else f"{Path(study_file).stem}.nc"))
+    if path.suffix != STORE_SUFFIX:
+        free(path, force=force)
     if dry_run:
         click.echo(_plan(study, path))
         return
-    cube = _computed(study, workers)
-    _finish(cube, path, force, started)
+    motions = study.motions()
+    expected = estimate(motions, study.grid, certify=study.certify)
+    store = store_of(path, resumable=resumable, expected=expected)
+    with logged(log), kept(store), client_of(workers, scheduler) as client:
+        cube = compute(
+            motions,
+            **{name: getattr(study.grid, name) for name in GRID_FIELDS},
+            outputs=study.outputs,
+            certify=study.certify,
+            workers=threads,
+            client=client,
+            store=store,
+            restart=restart,
+            progress=True,
+        )
+        _finish(cube, path, store, force, started)
 
 
-def _finish(cube: xr.Dataset, path: Path, force: bool, started: float) -> None:
+def _finish(cube: xr.Dataset, path: Path, store: Path | None, force: bool, started: float) -> None:
     """Write the cube and say what it holds."""
-    from fdspec.cli.summary import summary
-    from fdspec.store import save
+    from fdspec.cli.summary import statuses, summary
+    from fdspec.store import remove, save, to_netcdf
 
-    save(cube, path, overwrite=force)
+    if store is None:
+        save(cube, path, overwrite=force)
+    elif store != path:
+        to_netcdf(store, path, overwrite=force)
+    told, failed = statuses(cube)
     click.echo(summary(cube, path, time.perf_counter() - started))
-    failed = int((cube["status"] != 0).sum())
+    click.echo(told)
     if failed:
-        warnings.warn(f"{failed} histories did not end well; see the cube's variable status", stacklevel=1)
+        warnings.warn(f"{failed} histories did not end well; their cells are listed above", stacklevel=1)
+    if store is not None and store != path:
+        remove(store)
 
 
 def _plan(study: Study, path: Path) -> str:
@@ -133,20 +167,4 @@ def _plan(study: Study, path: Path) -> str:
             f"expected size     at most {size(sum(bytes_of.values()))}",
             f"would write       {path}",
         )
-    )
-
-
-def _computed(study: Study, workers: int | None) -> xr.Dataset:
-    """Run the sweep that a study describes."""
-    from fdspec.grid import GRID_FIELDS
-    from fdspec.sweep import sweep as compute
-
-    axes_and_scalars = {name: getattr(study.grid, name) for name in GRID_FIELDS}
-    return compute(
-        study.motions(),
-        **axes_and_scalars,
-        outputs=study.outputs,
-        certify=study.certify,
-        workers=workers,
-        progress=True,
     )

@@ -11,6 +11,7 @@ from __future__ import annotations
 import os
 import secrets
 import shutil
+import socket
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
@@ -130,7 +131,10 @@ def write(
     with written(path):
         # Zarr would make the folders of a store that is gone anew.
         if not is_store(path):
-            raise DiskError(f"cannot write {os.fspath(path)}: the store is gone, and what was in it")
+            raise DiskError(
+                f"cannot write {os.fspath(path)}: on {socket.gethostname()} there is no such store; it was "
+                "removed, or the workers do not share its file system"
+            )
         group = zarr.open_group(path, mode="r+", zarr_format=3)
         for variable in sorted(variables, key=lambda variable: variable.name == STATUS):
             if blocks.owns(number, variable):

@@ -57,6 +57,7 @@ def _declare(
         zlib=True,
         complevel=1,
         shuffle=True,
+        fletcher32=True,
         chunksizes=[edges[str(dim)] for dim in array.dims],
         fill_value=False,
     )

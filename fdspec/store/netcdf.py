@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from fdspec.errors import StoreError
+from fdspec.errors import DiskError, StoreError
 from fdspec.store import chunks, layout
 from fdspec.store.replacing import replacing
 from fdspec.store.undisturbed import undisturbed
@@ -148,7 +148,9 @@ def write_netcdf(on_disk: xr.Dataset, part: Path, path: str | os.PathLike[str]) 
     try:
         with undisturbed():
             on_disk.to_netcdf(part, mode="w", format="NETCDF4", engine="netcdf4", encoding=encoding)
-    except (OSError, RuntimeError, ValueError, TypeError) as error:
+    except (OSError, RuntimeError) as error:
+        raise DiskError(f"cannot write {os.fspath(path)}: {error}") from error
+    except (ValueError, TypeError) as error:
         raise StoreError(f"cannot write {os.fspath(path)}: {error}") from error
 
 
@@ -157,7 +159,7 @@ def _encoding(variable: xr.Variable, coordinate: bool) -> dict[str, Any]:
         return {"dtype": "S1"}
     if coordinate or variable.ndim == 0:
         return {"_FillValue": None}
-    return {"_FillValue": None, "zlib": True, "complevel": 1, "shuffle": True}
+    return {"_FillValue": None, "zlib": True, "complevel": 1, "shuffle": True, "fletcher32": True}
 
 
 def _check(dataset: xr.Dataset) -> None:

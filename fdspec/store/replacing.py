@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import os
 import secrets
+import shutil
 import tempfile
+import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Final
 
-from fdspec.errors import StoreError
+from fdspec.errors import DiskError, StoreError
+
+ABANDONED: Final = 86400.0
+"""s after which a file that is not written to is nobody's."""
 
 NETCDF_SUFFIXES: Final = (".nc", ".nc4", ".netcdf", ".cdf")
 
@@ -39,7 +44,8 @@ def check_writable(
     Raises
     ------
     StoreError
-        When it cannot be written; the text says why and what would be right.
+        When it cannot be written; the text says why and what would be right. A DiskError where the disk
+        refuses: it is full or read-only, or the folder belongs to somebody else.
     """
     given = Path(path)
     target = given.resolve()
@@ -62,7 +68,7 @@ def check_writable(
         with tempfile.TemporaryFile(dir=folder):
             pass
     except OSError as error:
-        raise StoreError(
+        raise DiskError(
             f"cannot write {given}: the folder {given.parent} takes no files ({_reason(error)}); "
             "give a file in another folder"
         ) from error
@@ -77,9 +83,11 @@ def replacing(
 
     The name is a new one in the same folder, so that the last step is one rename: whoever reads `path` finds
     the old file or the whole new one, also when this process is killed or the machine stops. After any error,
-    KeyboardInterrupt included, the new file is removed.
+    KeyboardInterrupt included, the new file is removed; one that a killed process left goes when it is a day
+    old.
     """
     target = check_writable(path, suffixes=suffixes, overwrite=overwrite)
+    _tidy(target.parent)
     part = target.with_name(f".fdspec-{os.getpid()}-{secrets.token_hex(4)}.part")
     try:
         yield part
@@ -90,9 +98,17 @@ def replacing(
     except OSError as error:
         if isinstance(error, StoreError):
             raise
-        raise StoreError(f"cannot write {path}: {_reason(error)}") from error
+        raise DiskError(f"cannot write {path}: {_reason(error)}") from error
     finally:
         part.unlink(missing_ok=True)
+
+
+def _tidy(folder: Path) -> None:
+    """Remove what processes that were killed left here; what is younger may be at work, here or elsewhere."""
+    for left in folder.glob(".fdspec-*.part"):
+        with suppress(OSError):
+            if time.time() - left.stat().st_mtime > ABANDONED:
+                shutil.rmtree(left) if left.is_dir() else left.unlink()
 
 
 def _sync_folder(folder: Path) -> None:

@@ -221,7 +221,7 @@ def test_a_store_that_is_removed_at_work_is_told(
         write(path, blocks, number, *rest)
 
     monkeypatch.setattr(chunks, "write", removing)
-    with pytest.raises(DiskError, match="the store is gone"):
+    with pytest.raises(DiskError, match="there is no such store"):
         fdspec.sweep(motions, **AXES, store=store, columns_per_task=1, scheduler="synchronous")
     assert not store.exists()
 

@@ -91,6 +91,19 @@ def test_every_cell_is_its_history(cube: xr.Dataset) -> None:
         assert cell.kinetic_slip_force.values.tolist() == history.kinetic_slip_force.values.tolist()
 
 
+@pytest.mark.parametrize("name", ["plain", "mixed", "matrix"])
+def test_peaks_of_braces_are_those_of_their_courses(cube: xr.Dataset, name: str) -> None:
+    """Sampled finely: a course reaches its peak to (omega h)^2 / 8, and never beyond."""
+    motion, axes = record("b", 2, 60), {"stiffness_scale": 3.0, "slip_scale": 0.3}
+    h = motion.dt / 2000
+    history = fdspec.simulate(scaled(unlike()[name], *axes.values()), motion, dt_out=h)
+    sampled = np.abs(history.brace_displacement).max("time").values
+    peak = cube.peak_brace_displacement.sel(record="b", building=name, **axes).values
+    fastest = math.sqrt(3.0 * 80e6 / 50.0)  # rad/s, of a brace that slips
+    assert (sampled <= peak * (1.0 + 1e-12)).all()
+    np.testing.assert_allclose(sampled, peak, rtol=(fastest * h) ** 2 / 8.0)
+
+
 def test_it_slips_and_closes_its_energy(cube: xr.Dataset) -> None:
     assert int(np.abs(cube.status).sum()) == 0
     assert (cube.transitions.sel(building="plain", slip_scale=[0.3, 1.0]) > 10).all()

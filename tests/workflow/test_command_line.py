@@ -75,7 +75,7 @@ def test_from_study_to_cube_to_pictures_and_export(folder: Path, capsys: pytest.
 def test_the_cube_of_the_command_is_the_cube_of_python(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    done(capsys, "sweep", "mine.toml", "-o", "a.nc", "--workers", "1")
+    done(capsys, "sweep", "mine.toml", "-o", "a.nc", "--threads", "1")
     study = Study.read("mine.toml")
     grid = study.grid
     cube = fdspec.sweep(
@@ -254,8 +254,9 @@ def test_ctrl_c_under_a_progress_bar_ends_cleanly(folder: Path) -> None:
     with process.stdout as stdout:
         assert stdout.read() == b""
     assert text.rstrip().endswith(b"fdspec: interrupted")
+    assert b"long.unfinished.zarr keeps what is finished; the same command goes on from there" in text
     assert b"Traceback" not in text
-    assert names(folder) == before
+    assert names(folder) == before | {"long.unfinished.zarr"}
 
 
 def _rest(terminal: int) -> bytes:
