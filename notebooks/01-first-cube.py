@@ -15,8 +15,8 @@
 #
 # **How do I compute the peak response of a frame for many dampers at once, and read the answer?**
 #
-# The answer is a cube: one number for every record, stiffness ratio, pretension and period. This page makes a
-# small one, reads a best pretension off it, and keeps it in a file.
+# The answer is a cube: one number for every record, stiffness ratio, pretension and period. This page
+# makes a small one, reads a best pretension off it, and keeps it in a file.
 
 # %%
 import tempfile
@@ -29,8 +29,8 @@ import fdspec
 # %% [markdown]
 # ## One record, three braces, three frames
 #
-# `FSR1` is a record of the Kobe earthquake. The study's own file cannot be shipped, so this is another real
-# record of the same earthquake, scaled to the study's peak ground acceleration; the motion says so.
+# `FSR1` is a record of the Kobe earthquake. The study's own file cannot be shipped, so this is another
+# real record of the same earthquake, scaled to the study's peak ground acceleration; the motion says so.
 
 # %%
 motion = fdspec.load_record("FSR1")
@@ -38,8 +38,9 @@ print(motion.source)
 print(f"{motion.n} samples, {motion.dt} s apart, peak {motion.pga:.2f} m/s2, {motion.history[0]}")
 
 # %% [markdown]
-# Units are SI: pretension in newtons, period in seconds. The period is that of the frame without its brace, the
-# stiffness ratio that of brace over frame, and the damper slips at half its pretension (friction coefficient 0.5).
+# Units are SI: pretension in newtons, period in seconds. The period is that of the frame without its
+# brace, the stiffness ratio that of brace over frame, and the damper slips at half its pretension
+# (friction coefficient 0.5).
 
 # %%
 cube = fdspec.sweep(
@@ -51,18 +52,21 @@ cube = fdspec.sweep(
 cube.peak_acceleration
 
 # %% [markdown]
-# `cube` is an xarray Dataset: select by name and value, reduce, plot. 540 histories took less than a second. Each
-# ended well, and the energy of each closes to rounding:
+# `cube` is an xarray Dataset: select by name and value, reduce, plot. 540 histories took less than a
+# second. Each ended well, and the energy of each closes to rounding:
 
 # %%
 assert (cube.status == 0).all()
-print(f"largest energy error of {cube.status.size} histories: {cube.energy_error.max().item():.0e} of the input")
+print(
+    f"largest energy error of {cube.status.size} histories: {cube.energy_error.max().item():.0e} of the input"
+)
 
 # %% [markdown]
 # ## The best pretension
 #
-# At the left the damper slides almost freely, at the right it hardly ever does and the frame is a braced one. In
-# between lies the pretension one wants; for a weak brace there is little to gain, for a stiff one much.
+# At the left the damper slides almost freely, at the right it hardly ever does and the frame is a braced
+# one. In between lies the pretension one wants; for a weak brace there is little to gain, for a stiff one
+# much.
 
 # %%
 figure, panels = plt.subplots(1, 3, figsize=(11, 3.5), sharey=True, layout="constrained")
@@ -93,7 +97,8 @@ for name, variable in cube.data_vars.items():
 # %% [markdown]
 # ## Keep it
 #
-# The file is netCDF, readable far beyond Python, and the same bits come back. It carries its own provenance.
+# The file is netCDF, readable far beyond Python, and the same bits come back. It carries its own
+# provenance.
 
 # %%
 with tempfile.TemporaryDirectory() as folder:
@@ -106,5 +111,5 @@ print(again.attrs["history"])
 print(again.attrs["comment"])
 
 # %% [markdown]
-# On the command line the same is a study file and `fdspec sweep`. Next: [what a damper does during an
-# earthquake](02-one-frame-up-close.py).
+# On the command line the same is a study file and `fdspec sweep`. Next: {doc}`what a damper does during an
+# earthquake <02-one-frame-up-close>`.

@@ -15,8 +15,8 @@
 #
 # **Do the study's conclusions hold, record by record, when every history behind them is exact?**
 #
-# This page makes the study's whole cube, 41 580 histories, puts each conclusion to it as a number, and draws the
-# study's Figures 10 to 18. What comes out is told whether it agrees with the study or not.
+# This page makes the study's whole cube, 41 580 histories, puts each conclusion to it as a number, and
+# draws the study's Figures 10 to 18. What comes out is told whether it agrees with the study or not.
 
 # %%
 import pandas as pd
@@ -31,14 +31,15 @@ from fdspec.measures.claims import CLAIMS, verdict_of_claim
 # %% [markdown]
 # ## The cube
 #
-# The nine records are **stand-ins**: each is another real record of the same earthquake, scaled to the peak ground
-# acceleration that the study prints, since its own files cannot be shipped. Shapes and trends can be compared
-# with the study's figures, single values cannot. Neither does the study print its periods; here they run from
-# 0.05 to 3 s.
+# The nine records are **stand-ins**: each is another real record of the same earthquake, scaled to the
+# peak ground acceleration that the study prints, since its own files cannot be shipped. Shapes and trends
+# can be compared with the study's figures, single values cannot. Neither does the study print its
+# periods; here they run from 0.05 to 3 s.
 
 # %%
 study = fdspec.Study()
-cube = fdspec.sweep(study.motions())
+axes = {name: getattr(study.grid, name) for name in ("stiffness_ratio", "pretension", "period")}
+cube = fdspec.sweep(study.motions(), **axes)
 assert (cube.status == 0).all()
 print(dict(cube.sizes), f"largest energy error {cube.energy_error.max().item():.0e} of the input")
 pd.DataFrame({name: cube[name].values for name in ("event", "station", "scale_factor")}, cube.record.values)
@@ -46,9 +47,10 @@ pd.DataFrame({name: cube[name].values for name in ("event", "station", "scale_fa
 # %% [markdown]
 # ## The claims
 #
-# A conclusion in words has to become a sentence about cells of the cube before a cube can decide it. The number that
-# decides is the share of cells which do what the sentence says: from 90 % on it holds (+), from 50 % on in part (~),
-# else it does not (-). Where the study is open to more than one reading, there is a row for each.
+# A conclusion in words has to become a sentence about cells of the cube before a cube can decide it. The
+# number that decides is the share of cells which do what the sentence says: from 90 % on it holds (+),
+# from 50 % on in part (~), else it does not (-). Where the study is open to more than one reading, there
+# is a row for each.
 
 # %%
 claims = study_claims(cube)
@@ -72,8 +74,9 @@ display(Markdown("\n".join(f"- **{part}**: {sentence}" for part, sentence in sen
 # %% [markdown]
 # ### With pretension as the force of one bolt
 #
-# The study calls both the total normal force and the force of a bolt a pretension, and does not say which one its
-# figures show. With one bolt and two faces the second is half of the first. The same cube, read so:
+# The study calls both the total normal force and the force of a bolt a pretension, and does not say which
+# one its figures show. With one bolt and two faces the second is half of the first. The same cube, read
+# so:
 
 # %%
 bolt = study_claims(cube, normal_force_factor=2)
@@ -90,33 +93,39 @@ pd.DataFrame(
 # %% [markdown]
 # ## What comes out
 #
-# **(a) The peak over the grid grows with stiffness ratio**: holds for six records, and from 0.5 to 10 for all
-# nine. FSR3, FMR2 and FMR3 have steps at which it falls, where the braced frame's period moves past a peak of the
-# spectrum into a dip. That is the shape of single records: with the study's own it may hold at every step.
+# **(a) The peak over the grid grows with stiffness ratio**: holds for six records, and from 0.5 to 10 for
+# all nine. FSR3, FMR2 and FMR3 have steps at which it falls, where the braced frame's period moves past a
+# peak of the spectrum into a dip. That is the shape of single records: with the study's own it may hold
+# at every step.
 #
-# **(b) At stiffness ratios 0.5 and 1 pretension cannot control the response**: the second half holds for every
-# record, beyond 300 kN nothing changes. The first does not hold as it stands: at 30 to 85 % of the
-# periods a small pretension brings the response at least 10 % below that of the free frame. A frame with 5 % of
-# damping gains from a little friction whatever its brace. All nine records say so, the stand-ins are hardly the reason.
+# **(b) At stiffness ratios 0.5 and 1 pretension cannot control the response**: the second half holds for
+# every record, beyond 300 kN nothing changes. The first does not hold as it stands: at 30 to 85 % of the
+# periods a small pretension brings the response at least 10 % below that of the free frame. A frame with
+# 5 % of damping gains from a little friction whatever its brace. All nine records say so, the stand-ins
+# are hardly the reason.
 #
-# **(c) Beyond stiffness ratio 4 the least response lies at 100 to 250 kN**: holds for every record when it is said
-# of the largest response over all periods, which is what one sees on a surface. It does not hold period by period:
-# to about 0.9 s it mostly does, beyond that the smallest pretension of the grid, 10 kN, is the best. Read as
-# the force of one bolt the claim fails for all nine records. That is the strongest sign which of the two the study
-# plots: the total normal force, which is why `normal_force_factor` is 1 unless told otherwise.
+# **(c) Beyond stiffness ratio 4 the least response lies at 100 to 250 kN**: holds for every record when
+# it is said of the largest response over all periods, which is what one sees on a surface. It does not
+# hold period by period: to about 0.9 s it mostly does, beyond that the smallest pretension of the grid,
+# 10 kN, is the best. Read as the force of one bolt the claim fails for all nine records. That is the
+# strongest sign which of the two the study plots: the total normal force, which is why
+# `normal_force_factor` is 1 unless told otherwise.
 #
-# **(d) To 0.4 s the response rises past the optimum, beyond 0.4 s it falls with period**: both in part. The rise is
-# not steady (waves of over 1 % on the way up), and spectra of single records are jagged; of two periods beyond
-# 0.4 s the longer responds less in 67 to 89 % of the pairs. No record is an exception, in either direction.
+# **(d) To 0.4 s the response rises past the optimum, beyond 0.4 s it falls with period**: both in part.
+# The rise is not steady (waves of over 1 % on the way up), and spectra of single records are jagged; of
+# two periods beyond 0.4 s the longer responds less in 67 to 89 % of the pairs. No record is an exception,
+# in either direction.
 #
-# **(e) At stiffness ratios 8 and 10, to 0.6 s and 100 to 300 kN, the response is low**: below the free frame's for most
-# records and cells, and below the braced frame's in about half of them. 310 kN is off the grid's band: its
-# points are 110 and 210 kN. Records differ much (FHR1 holds, FMR3 hardly), so the study's own may decide otherwise.
+# **(e) At stiffness ratios 8 and 10, to 0.6 s and 100 to 300 kN, the response is low**: below the free
+# frame's for most records and cells, and below the braced frame's in about half of them. 310 kN is off
+# the grid's band: its points are 110 and 210 kN. Records differ much (FHR1 holds, FMR3 hardly), so the
+# study's own may decide otherwise.
 #
-# **(f) The reduction is independent of period**: does not hold for any record. Against the free frame, a damper of
-# 100 to 250 kN halves the response of short periods and raises that of long ones. It is the response itself which
-# becomes nearly even there, since friction limits the force on the floor; the reduction cannot, as the free
-# frame's spectrum falls with period. Neither the records nor the meaning of pretension change that.
+# **(f) The reduction is independent of period**: does not hold for any record. Against the free frame, a
+# damper of 100 to 250 kN halves the response of short periods and raises that of long ones. It is the
+# response itself which becomes nearly even there, since friction limits the force on the floor; the
+# reduction cannot, as the free frame's spectrum falls with period. Neither the records nor the meaning of
+# pretension change that.
 #
 # The cells of this page keep these sentences honest:
 
@@ -140,8 +149,8 @@ assert (ratio.sel(period=slice(2, 3)).mean("period") > 1).all()
 # %% [markdown]
 # ## What an engineer may take from it
 #
-# Friction dampers pay for short periods and stiff braces, and the pretension that serves the worst period serves all nine
-# records. Which damper lowers the response most, averaged over periods to 0.6 s:
+# Friction dampers pay for short periods and stiff braces, and the pretension that serves the worst period
+# serves all nine records. Which damper lowers the response most, averaged over periods to 0.6 s:
 
 # %%
 short = best_damper(cube.isel(period=cube.period.values <= 0.6))
@@ -157,8 +166,9 @@ pd.DataFrame(
 # %% [markdown]
 # ## Figures 10 to 18
 #
-# Left of each pair the surface as the study shows it, right the same as a map that can be read off. The strips are
-# the limits: the damper that slides without friction, the one that never slips. The line is the best pretension.
+# Left of each pair the surface as the study shows it, right the same as a map that can be read off. The
+# strips are the limits: the damper that slides without friction, the one that never slips. The line is
+# the best pretension.
 
 # %%
 for record, number in RECORD_FIGURES.items():
@@ -166,5 +176,5 @@ for record, number in RECORD_FIGURES.items():
     display(plot_acceleration(cube, record, title=f"Figure {number}: {record}", caption=caption))
 
 # %% [markdown]
-# `fdspec figures study.nc -o DIR` writes these, and the study's others, as PNG and PDF; `fdspec claims study.nc`
-# prints the table. Next: [your own record](04-your-own-record.py).
+# `fdspec figures study.nc -o DIR` writes these, and the study's others, as PNG and PDF; `fdspec claims
+# study.nc` prints the table. Next: {doc}`your own record <04-your-own-record>`.

@@ -15,8 +15,9 @@
 #
 # **How do I run all this on a record of my own, and what must I check before I believe the answer?**
 #
-# fdspec reads what agencies publish (PEER, COSMOS, CSMIP, K-NET, ESM, miniSEED and others) and plain columns. It tells a
-# format by its content. What a file does not say of itself, its unit or its time step, has to be told.
+# fdspec reads what agencies publish (PEER, COSMOS, CSMIP, K-NET, ESM, miniSEED and others) and plain
+# columns. It tells a format by its content. What a file does not say of itself, its unit or its time
+# step, has to be told.
 
 # %%
 import tempfile
@@ -32,8 +33,8 @@ from fdspec.spectra import elastic_spectra
 # %% [markdown]
 # ## A file with two columns
 #
-# Yours lies on your disk. This one is written here, so that the page runs anywhere: a pulse of 1.2 s as near a fault,
-# with some shaking on top, in cm/s².
+# Yours lies on your disk. This one is written here, so that the page runs anywhere: a pulse of 1.2 s as
+# near a fault, with some shaking on top, in cm/s².
 
 # %%
 folder = Path(tempfile.mkdtemp())
@@ -41,7 +42,9 @@ path = folder / "pulse.txt"
 time = 0.005 * np.arange(4001)
 random = np.random.default_rng(7)
 pulse = 250.0 * np.exp(-(((time - 5.0) / 1.0) ** 2)) * np.sin(2 * np.pi * (time - 5.0) / 1.2)
-shaking = np.convolve(random.normal(size=time.size), np.hanning(12), "same") * np.exp(-(((time - 6.0) / 3.0) ** 2))
+shaking = np.convolve(random.normal(size=time.size), np.hanning(12), "same") * np.exp(
+    -(((time - 6.0) / 3.0) ** 2)
+)
 samples = pulse + 25.0 * shaking
 np.savetxt(path, np.column_stack([time, samples]), header="time, s   acceleration, cm/s2")
 print("".join(path.read_text().splitlines(keepends=True)[1000:1004]))
@@ -53,8 +56,8 @@ print(motion)
 # %% [markdown]
 # ## Look at it first
 #
-# Is the peak what it should be? Does the motion end at rest? Is there energy where your frame is? A wrong unit shows
-# here, and a record whose peak is over 5 g draws a warning.
+# Is the peak what it should be? Does the motion end at rest? Is there energy where your frame is? A wrong
+# unit shows here, and a record whose peak is over 5 g draws a warning.
 
 # %%
 spectra = elastic_spectra([motion], np.linspace(0.02, 3.0, 150), [0.02, 0.05])
@@ -63,8 +66,8 @@ plot_record(motion, spectra)
 # %% [markdown]
 # ## A small study
 #
-# One frame of 30 t, three braces, pretensions up to 400 kN. The record is named by its path or handed over as here; a
-# catalogue record runs beside it, to compare.
+# One frame of 30 t, three braces, pretensions up to 400 kN. The record is named by its path or handed
+# over as here; a catalogue record runs beside it, to compare.
 
 # %%
 cube = fdspec.sweep(
@@ -77,9 +80,9 @@ cube = fdspec.sweep(
 assert (cube.status == 0).all()
 
 # %% [markdown]
-# Each line below is the response of one frame over pretension, divided by that of the frame without damper. Where it
-# is below 1 the damper helps; the lowest point is the pretension to choose, and a flat valley means that a bolt
-# which loses some force does little harm.
+# Each line below is the response of one frame over pretension, divided by that of the frame without
+# damper. Where it is below 1 the damper helps; the lowest point is the pretension to choose, and a flat
+# valley means that a bolt which loses some force does little harm.
 
 # %%
 figure, panels = plt.subplots(1, 2, figsize=(10, 3.8), sharey=True, layout="constrained")
@@ -90,15 +93,17 @@ for panel, record in zip(panels, cube.record.values, strict=True):
     panel.axhline(1.0, color="0.5", ls="--", lw=0.8)
     panel.set(title=f"{record}, stiffness ratio 4", xlabel="pretension, kN", xlim=(0, 400), ylim=(0, None))
 panels[0].set_ylabel("response over free frame's")
-_ = figure.legend(*panels[0].get_legend_handles_labels(), title="period", loc="outside right center", frameon=False)
+_ = figure.legend(
+    *panels[0].get_legend_handles_labels(), title="period", loc="outside right center", frameon=False
+)
 
 # %%
 best = ratio.idxmin("pretension") / 1e3
 best.to_pandas().rename_axis(columns="best pretension in kN at period, s")
 
 # %% [markdown]
-# The two records ask for different pretensions, and for some frames one of them for none at all. One record is no
-# ground to choose a damper on: take several, and look at the worst.
+# The two records ask for different pretensions, and for some frames one of them for none at all. One
+# record is no ground to choose a damper on: take several, and look at the worst.
 
 # %%
 worst = cube.peak_acceleration.max("record")
@@ -119,7 +124,7 @@ print(f"0.6 s, SR 4: {force / 1e3:.0f} kN, at most {choice.min().item():.2f} m/s
 #
 # `fdspec sweep mine.toml -o mine.nc` makes the cube, `fdspec figures mine.nc` draws it.
 #
-# Next: [four storeys](05-four-storeys.py).
+# Next: {doc}`four storeys <05-four-storeys>`.
 
 # %%
 text = """

@@ -13,11 +13,11 @@
 # %% [markdown]
 # # Four storeys
 #
-# **What do friction dampers do to a building of several storeys, and what would they do if their bolts were tightened
-# more, or not the same in all storeys?**
+# **What do friction dampers do to a building of several storeys, and what would they do if their bolts
+# were tightened more, or not the same in all storeys?**
 #
-# The building is the study's second validation problem (its Figures 5 and 6): a moment-resisting frame of four
-# storeys, each with a brace and a friction damper.
+# The building is the study's second validation problem (its Figures 5 and 6): a moment-resisting frame of
+# four storeys, each with a brace and a friction damper.
 #
 # - **printed**: floors 41 610, 41 610, 41 610, 40 820 kg; bracing 23 kg a storey; first period 1.006 s
 #   bare and 0.612 s braced; friction coefficient 0.15; damping 2 %; NS component of Kalamata, 13
@@ -103,9 +103,9 @@ _ = axes.legend()
 # %% [markdown]
 # ## Not the same in all storeys
 #
-# Storey shear falls towards the roof, so that equal dampers serve the lower storeys and hardly slip in the top one.
-# `sweep_buildings` takes several buildings at once, here three distributions over the height with the same sum of
-# slip forces, each scaled from nothing to three times.
+# Storey shear falls towards the roof, so that equal dampers serve the lower storeys and hardly slip in
+# the top one. `sweep_buildings` takes several buildings at once, here three distributions over the height
+# with the same sum of slip forces, each scaled from nothing to three times.
 
 # %%
 shapes = {
@@ -133,9 +133,12 @@ _ = figure.legend(*left.get_legend_handles_labels(), loc="outside right center",
 best = drift.idxmin("slip_scale")
 for name in shapes:
     least = drift.sel(building=name).min().item()
-    force = best.sel(building=name).item() * cube.slip_force.sel(building=name, slip_scale=1.0).sum().item() / 1e3
+    force = (
+        best.sel(building=name).item() * cube.slip_force.sel(building=name, slip_scale=1.0).sum().item() / 1e3
+    )
     print(f"{name:9} least drift {least:5.2f} mm with slip forces of {force:5.0f} kN in all")
 
 # %% [markdown]
-# Drift and acceleration do not ask for the same dampers. What one gains on either hand, and how to search the
-# distribution instead of guessing it, is the matter of [choosing a pretension](06-choosing-a-pretension.py).
+# Drift and acceleration do not ask for the same dampers. What one gains on either hand, and how to search
+# the distribution instead of guessing it, is the matter of [choosing a
+# pretension](06-choosing-a-pretension.py).

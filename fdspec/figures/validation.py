@@ -110,7 +110,7 @@ def plot_brace_displacements(
     end = float(time[-1]) if end is None else end
     exact = measure["brace_displacement"].sel(storey=storey).values * 1e3
     reach = 1.25 * float(np.abs(exact[time <= end]).max(initial=0.0))
-    figure = Figure(figsize=(9.0, max(2.9, 0.9 + 1.15 * len(histories))), layout="constrained", dpi=150)
+    figure = Figure(figsize=(9.0, max(2.9, 0.9 + 0.92 * len(histories))), layout="constrained", dpi=150)
     axes = figure.subplots(len(histories), sharex=True, sharey=True, squeeze=False)[:, 0]
     for axis, (name, history) in zip(axes, histories.items(), strict=True):
         at = history["time"].values

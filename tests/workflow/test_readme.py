@@ -19,7 +19,7 @@ def test_lines_of_python_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ca
     assert fdspec.open("cube.nc").identical(names["cube"])
 
 
-@pytest.mark.parametrize("name", ["make", "test"])
+@pytest.mark.parametrize("name", ["make", "test", "docs"])
 def test_commands_that_ci_runs_are_marked(name: str) -> None:
     assert f"<!-- command: {name} -->\n```bash\n" in README.read_text(encoding="utf-8")
 
