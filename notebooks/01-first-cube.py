@@ -111,5 +111,5 @@ print(again.attrs["history"])
 print(again.attrs["comment"])
 
 # %% [markdown]
-# On the command line the same is a study file and `fdspec sweep`. Next: {doc}`what a damper does during an
-# earthquake <02-one-frame-up-close>`.
+# On the command line the same is a study file and `fdspec sweep`. Next: {doc}`what a damper does during
+# an earthquake <02-one-frame-up-close>`.

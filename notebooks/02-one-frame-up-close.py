@@ -65,8 +65,8 @@ assert history.energy_error < 1e-9
 #
 # The brace is light. While the damper slips it swings on its own, here some eighty times a second, and
 # once in each swing the sliding velocity comes back close to zero. It may turn just short of zero, or
-# touch it; then the damper holds for a moment, and slips on. Such near misses are not the exception: most
-# changes of phase are of this kind.
+# touch it; then the damper holds for a moment, and slips on. Such near misses are not the exception: half
+# of the times that this damper sticks, once it has slipped, it does so for two milliseconds or less.
 
 # %%
 start, stop = shortest_stick(history)
@@ -105,7 +105,7 @@ for dt in (1e-3, 1e-4, 1e-5):
 print(f"{'exact':>8} {0:18} {history.transitions.item():17d}")
 
 # %% [markdown]
-# The floor, two hundred times heavier than the brace, hides most of this. The brace does not: its
+# The floor, four hundred times heavier than the brace, hides most of this. The brace does not: its
 # acceleration jumps at each change of phase, and so does the force that it hands on.
 #
 # Next: {doc}`the study's nine records <03-the-study>`.

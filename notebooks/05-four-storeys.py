@@ -140,5 +140,4 @@ for name in shapes:
 
 # %% [markdown]
 # Drift and acceleration do not ask for the same dampers. What one gains on either hand, and how to search
-# the distribution instead of guessing it, is the matter of [choosing a
-# pretension](06-choosing-a-pretension.py).
+# the distribution instead of guessing it, is a matter of its own.
