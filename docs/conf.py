@@ -1,4 +1,4 @@
-"""Settings of the documentation: MyST pages, notebooks kept as Python files, docstrings, tables of the registry."""
+"""Settings of the documentation: pages, notebooks kept as Python files, docstrings, the registry's tables."""
 
 from sphinx.application import Sphinx
 from sphinx.util import logging
@@ -44,7 +44,7 @@ def setup(app: Sphinx) -> None:
     app.connect("env-updated", check_times)
 
 
-def fill_tables(app: Sphinx, docname: str, source: list[str]) -> None:
+def fill_tables(_: Sphinx, docname: str, source: list[str]) -> None:
     """Put the registry's tables into the page on files."""
     if docname == "schema":
         for name in ("CUBE", "BUILDING_CUBE", "HISTORY"):
@@ -69,7 +69,7 @@ def meaning(variable: variables.Variable) -> str:
     return f"{variable.long_name}: {', '.join(f'{code} {name}' for code, name in named)}"
 
 
-def check_times(app: Sphinx, env: object) -> None:
+def check_times(_: Sphinx, env: object) -> None:
     """Warn, which fails the build, of each notebook that took too long; say how long all took."""
     logger = logging.getLogger(__name__)
     for name in sorted(getattr(env, "nb_metadata", {})):

@@ -158,9 +158,7 @@ def methods_compared() -> dict[str, xr.Dataset]:
     building, motion = single_storey_k_braced.building(), kalamata.stand_in()
     until = round(SHOWN / motion.dt) + 1
     shown = GroundMotion(motion.acceleration[:until], motion.dt, name=motion.name)
-    return {
-        name: simulate(building, shown, method=method, dt_out=DT_OUT) for name, method in named.items()
-    }
+    return {name: simulate(building, shown, method=method, dt_out=DT_OUT) for name, method in named.items()}
 
 
 def _figure_4() -> Picture:
@@ -173,8 +171,8 @@ def _figure_4() -> Picture:
 
     words = (
         "Displacement of the additional frame relative to the ground by every method for friction, each over "
-        "the exact one in grey. Frame 20 000 kg, 0.4 s, damping ratio 0.02; additional frame 27 kg, 0.0684 s; "
-        "friction coefficient 0.15, normal force assumed "
+        "the exact one in grey. Frame 20 000 kg, 0.4 s, damping ratio 0.02; additional frame 27 kg, "
+        "0.0684 s; friction coefficient 0.15, normal force assumed "
         f"{_newtons(single_storey_k_braced.NORMAL_FORCE)}. {_excitation(kalamata.stand_in())}"
     )
     title = "displacement of the additional frame of a K-braced frame"
