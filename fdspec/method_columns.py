@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -42,8 +40,7 @@ def _building(frame: FloatArray, slip_force: float, kinetic_slip_force: float) -
     damping = DampingMatrix([[c_f]])
     if k_d == 0.0:  # no brace, and so nothing to slip on
         return Building(m_f, k_f, 0.0, 0.0, 0.0, damping=damping)
-    kinetic = 0.0 if math.isinf(slip_force) else kinetic_slip_force
-    return Building(m_f, k_f, m_d, k_d, slip_force, kinetic, damping, c_d)
+    return Building(m_f, k_f, m_d, k_d, slip_force, kinetic_slip_force, damping, c_d)
 
 
 def _results(course: Course) -> tuple[float, ...]:

@@ -144,7 +144,8 @@ def _equivalent(
     building: Building, before: FloatArray, amplitude: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Spring and dashpot (N,) of each storey at these amplitudes."""
-    stiffness, friction = building.brace_stiffness, building.kinetic_slip_force
+    stiffness = building.brace_stiffness
+    friction = np.where(np.isinf(building.slip_force), np.inf, building.kinetic_slip_force)
     slips = stiffness * amplitude > friction
     safe = np.where(slips, amplitude, 1.0)
     finite = np.where(slips, friction, 0.0)

@@ -99,7 +99,7 @@ def provenance(
     attributes = {
         "Conventions": "CF-1.11",
         "title": title,
-        "source": f"fdspec {__version__}, exact piecewise integration of stick-slip motion",
+        "source": f"fdspec {__version__}, {_way(parameters)}",
         "history": f"{_created(now)} {command} (fdspec {__version__})",
         "references": STUDY,
         "comment": " ".join(text for text in comments if text),
@@ -107,6 +107,13 @@ def provenance(
         "parameters": json.dumps(content, allow_nan=False),
     }
     return {name: text for name, text in attributes.items() if text}
+
+
+def _way(parameters: Mapping[str, object]) -> str:
+    """How the motion was integrated, in a few words."""
+    if "method" in parameters:
+        return f"method {parameters['method']} of the study's comparison"
+    return "exact piecewise integration of stick-slip motion"
 
 
 def origins(motions: Iterable[Motion]) -> str:

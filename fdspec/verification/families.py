@@ -15,6 +15,7 @@ from fdspec.verification import (
     general_solver,
     limits_of_methods,
     linear_limits,
+    steady_states,
     symmetry,
 )
 from fdspec.verification.row import Row
@@ -30,6 +31,7 @@ class Family(NamedTuple):
 
 FAMILIES: Final = (
     Family("closed-forms", closed_forms.rows),
+    Family("steady-states", steady_states.rows),
     Family("linear-limits", linear_limits.rows),
     Family("engines", engines.rows),
     Family("general-solver", general_solver.rows),

@@ -19,9 +19,9 @@ from fdspec.methods import (
 )
 from fdspec.motion import GroundMotion
 from fdspec.simulate import simulate
-from fdspec.verification.closed_forms import den_hartog_amplitude, steady_amplitude
 from fdspec.verification.problems import noise
 from fdspec.verification.row import Row, at_most, relative
+from fdspec.verification.steady_states import den_hartog_amplitude, steady_amplitude
 
 WITH_MASS: Final[tuple[Method, ...]] = (Newmark(dt=1e-5), Dimova(dt=1e-3), StateSpace())
 WITHOUT_MASS: Final[tuple[Method, ...]] = (Bilinear(dt=1e-3), BoucWen(), EquivalentLinear())

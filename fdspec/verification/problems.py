@@ -60,3 +60,29 @@ def two_storeys(slip_force: tuple[float, float] = (60e3, 35e3), kinetic: float =
         kinetic_slip_force=[kinetic * force for force in slip_force],
         damping=ModalDamping(0.03),
     )
+
+
+def rubbing(
+    mass: float,
+    stiffness: float,
+    damping_ratio: float,
+    force: float,
+    brace_omega: float,
+    heavier: float,
+    brace_damping_ratio: float,
+) -> Building:
+    """Make a floor that rubs on the ground: a brace ``heavier`` times its mass, at ``brace_omega`` rad/s.
+
+    A brace so heavy and stiff moves with the ground; where the ground moves it needs a critical dashpot, for
+    the first sample's jump would make it ring for ever.
+    """
+    brace = heavier * mass
+    return Building(
+        mass,
+        stiffness,
+        brace,
+        brace * brace_omega**2,
+        force,
+        damping=ModalDamping(damping_ratio),
+        brace_damping=2.0 * brace_damping_ratio * brace * brace_omega,
+    )
