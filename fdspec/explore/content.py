@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from fdspec.errors import InvalidInput
 from fdspec.explore.indices import Index, known_indices
 from fdspec.explore.packing import pack
+from fdspec.measures import best_on_grid
 from fdspec.units import G
 from fdspec.variables import BUILDING_DIMS, STUDY_DIMS
 
@@ -95,30 +96,28 @@ class Content:
         there is none; ``bare`` (period) and ``braced`` (stiffness_ratio, period), the two limits of
         acceleration in g.
         """
-        one = self.cube.isel(record=k).load()
-        ended = one["status"] == 0 if "status" in one else None
+        one = self.cube.isel(record=[k]).load()
         arrays: dict[str, NDArray[np.float64]] = {}
         for index in self.indices:
-            values = index.values(one)
-            values = (values if ended is None else values.where(ended)).transpose(*AXES)
+            values = index.values(one).isel(record=0).transpose(*AXES)
             arrays[index.name] = values.values
             if index.best:
-                arrays[f"best {index.name}"] = _best(values.values, index)
+                arrays[f"best {index.name}"] = _best(values, index)
         for name, variable, dims in (
             ("bare", "elastic_acceleration", ("period",)),
             ("braced", "braced_acceleration", ("stiffness_ratio", "period")),
         ):
             if variable in one:
-                arrays[name] = one[variable].transpose(*dims).values / G
+                arrays[name] = one[variable].isel(record=0).transpose(*dims).values / G
         # Level 6 takes three times as long for a twentieth less.
         return gzip.compress(pack({"record": self.records[k]}, arrays), compresslevel=1, mtime=0)
 
 
-def _best(values: NDArray[np.float64], index: Index) -> NDArray[np.float64]:
-    """Position of the best along axis 1, the first where several are equal; NaN where none is known."""
-    cost = np.where(np.isfinite(values), values if index.best == "least" else -values, np.inf)
-    place = np.argmin(cost, axis=1)
-    return np.where(np.isfinite(cost.min(axis=1)), place, np.nan)
+def _best(values: xr.DataArray, index: Index) -> NDArray[np.float64]:
+    """Position of the best along pretension, the first where several are equal; NaN where none is known."""
+    best = best_on_grid(values if index.best == "least" else -values)["pretension"].values
+    place = np.searchsorted(values["pretension"].values, best).astype(np.float64)
+    return np.where(np.isfinite(best), place, np.nan)
 
 
 def _check(cube: xr.Dataset, name: str) -> None:

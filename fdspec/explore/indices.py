@@ -6,15 +6,20 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, Literal
 
+from fdspec.measures import index_of, needs_of, reduction
+from fdspec.measures.cells import ended_well
 from fdspec.units import G
 
 if TYPE_CHECKING:
     import xarray as xr
 
+Values = Callable[["xr.Dataset"], "xr.DataArray"]
+"""From a cube to an index over all four of its dims, NaN where a history did not end well."""
+
 
 @dataclass(frozen=True, slots=True)
 class Index:
-    """One index over (stiffness_ratio, pretension, period) of one record.
+    """One index of the page.
 
     `reads` are the variables of the cube that `values` needs; `best` says which end is good, or that neither
     is and no best pretension can be told.
@@ -25,15 +30,23 @@ class Index:
     unit: str
     best: Literal["least", "most", ""]
     reads: tuple[str, ...]
-    values: Callable[[xr.Dataset], xr.DataArray]
+    values: Values
 
 
-def _scaled(name: str, factor: float) -> Callable[[xr.Dataset], xr.DataArray]:
-    return lambda one: one[name] * factor
+def _scaled(name: str, factor: float) -> Values:
+    return lambda cube: ended_well(cube, name) * factor
 
 
-def _share(name: str, of: str) -> Callable[[xr.Dataset], xr.DataArray]:
-    return lambda one: one[name] / one[of] * 100.0
+def _reduced(against: str) -> Values:
+    return lambda cube: 100.0 * reduction(cube)[against]
+
+
+def _judged(name: str) -> Values:
+    return lambda cube: index_of(cube, name)
+
+
+def _judged_index(name: str, title: str) -> Index:
+    return Index(f"{name}_index", title, "", "least", needs_of(name), _judged(name))
 
 
 INDICES: Final = (
@@ -46,20 +59,20 @@ INDICES: Final = (
         _scaled("peak_acceleration", 1.0 / G),
     ),
     Index(
-        "acceleration_to_bare",
-        "Acceleration against the bare frame",
+        "reduction_to_bare",
+        "Reduction of acceleration against the bare frame",
         "%",
-        "least",
-        ("peak_acceleration", "elastic_acceleration"),
-        _share("peak_acceleration", "elastic_acceleration"),
+        "most",
+        ("peak_acceleration", "elastic_acceleration", "braced_acceleration"),
+        _reduced("against_bare"),
     ),
     Index(
-        "acceleration_to_braced",
-        "Acceleration against the braced frame",
+        "reduction_to_braced",
+        "Reduction of acceleration against the braced frame",
         "%",
-        "least",
-        ("peak_acceleration", "braced_acceleration"),
-        _share("peak_acceleration", "braced_acceleration"),
+        "most",
+        ("peak_acceleration", "elastic_acceleration", "braced_acceleration"),
+        _reduced("against_braced"),
     ),
     Index(
         "displacement",
@@ -78,13 +91,17 @@ INDICES: Final = (
         ("peak_base_shear",),
         _scaled("peak_base_shear", 1e-3),
     ),
+    _judged_index("displacement", "Displacement over the bare frame's"),
+    _judged_index("base_shear", "Base shear over the bare frame's"),
+    _judged_index("rpi", "Relative performance index of strain energy"),
+    _judged_index("weighted", "Acceleration and displacement over the bare frame's, mean"),
     Index(
         "residual",
         "Residual displacement",
         "mm",
         "least",
         ("residual_displacement",),
-        lambda one: abs(one["residual_displacement"]) * 1e3,
+        lambda cube: abs(ended_well(cube, "residual_displacement")) * 1e3,
     ),
     Index(
         "dissipated",
@@ -99,8 +116,8 @@ INDICES: Final = (
         "Share of the input energy dissipated by friction",
         "%",
         "most",
-        ("dissipated_energy", "input_energy"),
-        _share("dissipated_energy", "input_energy"),
+        needs_of("dissipated_energy"),
+        lambda cube: 100.0 * (1.0 - index_of(cube, "dissipated_energy")),
     ),
     Index("travel", "Slip travel", "m", "", ("slip_travel",), _scaled("slip_travel", 1.0)),
     Index("transitions", "Changes of phase", "", "", ("transitions",), _scaled("transitions", 1.0)),

@@ -344,3 +344,61 @@ def test_the_file_needs_no_server(wide: Watched, folder: Path, cube: xr.Dataset,
     rows = rows_of(saved(page, "map-0", "CSV", tmp_path))
     assert len(rows) == len(PERIOD) * len(PRETENSION)
     assert saved(page, "surface-0", "PNG", tmp_path).read_bytes().startswith(b"\x89PNG")
+
+
+def test_colours_are_even_and_told_apart_by_colour_blind_eyes(wide: Watched, address: str) -> None:
+    page = wide.open(address)
+    page.select_option("#compare", label="FMR1")
+    wide.settled()
+    stops = page.evaluate("document.querySelector('#map-0 .plot')._fullData[0].colorscale")
+    places = np.array([place for place, _ in stops])
+    assert (places[0], places[-1]) == (0.0, 1.0)
+    for sight in SIGHTS:
+        scale = lab(np.array([channels(colour) for _, colour in stops]), sight)
+        rise = np.diff(scale[:, 0]) / np.diff(places)
+        # Lighter all the way, nowhere half or twice as fast as on the whole: it can be read without any colour.
+        assert (rise > 0.5 * rise.mean()).all(), sight
+        assert (rise < 2.0 * rise.mean()).all(), sight
+    lines = [drawn(page, "over-pretension", k)["line"]["color"] for k in (0, 3)]
+    lines += [drawn(page, "history-0", k)["line"]["color"] for k in (0, 1, 4)]
+    for sight in SIGHTS:
+        seen = lab(np.array([channels(colour) for colour in dict.fromkeys(lines)]), sight)
+        apart = [np.linalg.norm(a - b) for k, a in enumerate(seen) for b in seen[:k]]
+
+
+SIGHTS = {
+    "usual": np.eye(3),
+    "protanopia": np.array(
+        [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]]
+    ),
+    "deuteranopia": np.array(
+        [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]]
+    ),
+    "tritanopia": np.array(
+        [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]]
+    ),
+}
+"""Machado, Oliveira and Fernandes (2009), severity 1, on linear RGB."""
+
+
+def channels(colour: str) -> list[float]:
+    """Return red, green and blue from 0 to 1 of #rrggbb or rgb(r, g, b)."""
+    if colour.startswith("#"):
+        return [int(colour[k : k + 2], 16) / 255 for k in (1, 3, 5)]
+    return [float(part) / 255 for part in re.findall(r"[\d.]+", colour)[:3]]
+
+
+def lab(srgb: np.ndarray, sight: str) -> np.ndarray:
+    """Return CIELAB (D65) of sRGB colours (n, 3) as such eyes see them."""
+    linear = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+    linear = np.clip(linear @ SIGHTS[sight].T, 0.0, 1.0)
+    to_xyz = np.array(
+        [
+            [0.4124564, 0.3575761, 0.1804375],
+            [0.2126729, 0.7151522, 0.0721750],
+            [0.0193339, 0.1191920, 0.9503041],
+        ]
+    )
+    x, y, z = (linear @ to_xyz.T / [0.95047, 1.0, 1.08883]).T
+    fx, fy, fz = (np.where(v > 0.008856, np.cbrt(v), 7.787 * v + 16 / 116) for v in (x, y, z))
+    return np.column_stack([116 * fy - 16, 500 * (fx - fy), 200 * (fy - fz)])

@@ -132,7 +132,7 @@ function curvePicture(kind, shown) {
       plot: () => slicePlot(state, index, shown),
       title: () => `${index.title} over pretension: ${who}, period ${written(AXES.period[state.period], "s")}, ${at}`,
       words: () => shown.map(({ k, numbers }) => element("div", curveWords(state, k, index, numbers)))
-        .concat(index.best === "least" ? [element("div", "Open marks: within 5 % of the least.")] : []),
+        .concat(element("div", sliceMarks(index))),
       file: () => fileName(...names, index.name, "over-pretension"),
       numbers: () => sliceNumbers(state, index, shown),
       click: (point) => movePoint(AXES.period[state.period], point.x),

@@ -127,7 +127,7 @@ function slicePlot(s, index, shown) {
     if (index.name !== "acceleration") return;
     const level = (name, at, dash) => numbers[name] && data.push({
       type: "scatter", mode: "lines", name: `${plain(about.records[k].name)}, ${name} frame`, x: [AXES.pretension[0], AXES.pretension[SIZES.force - 1]],
-      y: [numbers[name][at], numbers[name][at]], line: { color: look.color, dash, width: 1.2 }, hoverinfo: "skip",
+      y: [numbers[name][at], numbers[name][at]], line: { color: look.color, dash, width: 1.2 }, hoverinfo: "skip", showlegend: false,
     });
     level("bare", s.period, "dot");
     level("braced", s.ratio * SIZES.period + s.period, "longdashdot");

@@ -46,6 +46,12 @@ function curveWords(s, k, index, numbers) {
   return `${about.records[k].name}: ${written(here, index.unit)} at ${written(AXES.pretension[s.force], "kN")}. ${bestWords(s, index, numbers)}`;
 }
 
+function sliceMarks(index) {
+  const marks = index.best === "least" ? ["Open marks: within 5 % of the least."] : [];
+  if (index.name === "acceleration") marks.push("Dotted: the bare frame; dash and dots: the frame braced for good.");
+  return marks.join(" ");
+}
+
 function historyWords(history) {
   const [acceleration, displacement] = history.compared;
   const words = `Peaks of the motion between samples too: ${written(acceleration.history, acceleration.unit)}` +
