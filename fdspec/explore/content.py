@@ -73,7 +73,13 @@ class Content:
             },
             "records": [self._about_record(k) for k in range(len(self.records))],
             "indices": [
-                {"name": index.name, "title": index.title, "unit": index.unit, "best": index.best}
+                {
+                    "name": index.name,
+                    "title": index.title,
+                    "unit": index.unit,
+                    "best": index.best,
+                    "searched": bool(index.measure),
+                }
                 for index in self.indices
             ],
         }

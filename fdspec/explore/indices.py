@@ -22,7 +22,8 @@ class Index:
     """One index of the page.
 
     `reads` are the variables of the cube that `values` needs; `best` says which end is good, or that neither
-    is and no best pretension can be told.
+    is and no best pretension can be told. Where `fdspec.best_pretension` can search between the cube's
+    pretensions, `measure` is its name for the index and `refined` reads the index off what it returns.
     """
 
     name: str
@@ -31,6 +32,8 @@ class Index:
     best: Literal["least", "most", ""]
     reads: tuple[str, ...]
     values: Values
+    measure: str = ""
+    refined: Values | None = None
 
 
 def _scaled(name: str, factor: float) -> Values:
@@ -46,7 +49,9 @@ def _judged(name: str) -> Values:
 
 
 def _judged_index(name: str, title: str) -> Index:
-    return Index(f"{name}_index", title, "", "least", needs_of(name), _judged(name))
+    return Index(
+        f"{name}_index", title, "", "least", needs_of(name), _judged(name), name, lambda best: best["index"]
+    )
 
 
 INDICES: Final = (
@@ -57,6 +62,8 @@ INDICES: Final = (
         "least",
         ("peak_acceleration",),
         _scaled("peak_acceleration", 1.0 / G),
+        "acceleration",
+        lambda best: best["peak_acceleration"] / G,
     ),
     Index(
         "reduction_to_bare",
@@ -65,6 +72,8 @@ INDICES: Final = (
         "most",
         ("peak_acceleration", "elastic_acceleration", "braced_acceleration"),
         _reduced("against_bare"),
+        "acceleration",
+        lambda best: 100.0 * (1.0 - best["index"]),
     ),
     Index(
         "reduction_to_braced",
@@ -73,6 +82,8 @@ INDICES: Final = (
         "most",
         ("peak_acceleration", "elastic_acceleration", "braced_acceleration"),
         _reduced("against_braced"),
+        "acceleration",
+        lambda best: 100.0 * (1.0 - best["peak_acceleration"] / best["braced_acceleration"]),
     ),
     Index(
         "displacement",
@@ -81,6 +92,8 @@ INDICES: Final = (
         "least",
         ("peak_displacement",),
         _scaled("peak_displacement", 1e3),
+        "displacement",
+        lambda best: best["peak_displacement"] * 1e3,
     ),
     Index("velocity", "Peak velocity", "m/s", "least", ("peak_velocity",), _scaled("peak_velocity", 1.0)),
     Index(
@@ -90,6 +103,8 @@ INDICES: Final = (
         "least",
         ("peak_base_shear",),
         _scaled("peak_base_shear", 1e-3),
+        "base_shear",
+        lambda best: best["peak_base_shear"] * 1e-3,
     ),
     _judged_index("displacement", "Displacement over the bare frame's"),
     _judged_index("base_shear", "Base shear over the bare frame's"),
@@ -118,6 +133,8 @@ INDICES: Final = (
         "most",
         needs_of("dissipated_energy"),
         lambda cube: 100.0 * (1.0 - index_of(cube, "dissipated_energy")),
+        "dissipated_energy",
+        lambda best: 100.0 * (1.0 - best["index"]),
     ),
     Index("travel", "Slip travel", "m", "", ("slip_travel",), _scaled("slip_travel", 1.0)),
     Index("transitions", "Changes of phase", "", "", ("transitions",), _scaled("transitions", 1.0)),

@@ -69,7 +69,7 @@ class Rerun:
     ) -> None:
         self.cube = cube
         self.motions = Motions(cube, files or {}, folder)
-        self.frame = _frame_parameters(cube)
+        self.frame, self.friction = _parameters(cube)
 
     def building(self, stiffness_ratio: int, pretension: int, period: int) -> Building:
         """Return the frame at these positions of the cube."""
@@ -96,20 +96,18 @@ class Rerun:
         IntegrationError
             When the history cannot be completed.
         """
-        place = {
-            "record": record,
-            "stiffness_ratio": stiffness_ratio,
-            "pretension": pretension,
-            "period": period,
-        }
+        self.check(record=record, stiffness_ratio=stiffness_ratio, pretension=pretension, period=period)
+        found = self.motions.find(str(self.cube["record"].values[record]))
+        frame = self.building(stiffness_ratio, pretension, period)
+        return simulate(frame, found.motion, dt_out=found.motion.dt / finer), found.notice
+
+    def check(self, **place: int) -> None:
+        """Raise InvalidInput for a position outside the cube."""
         for dim, position in place.items():
             if not 0 <= position < self.cube.sizes[dim]:
                 raise InvalidInput(
                     f"{dim} must be a position from 0 to {self.cube.sizes[dim] - 1}, got {position}"
                 )
-        found = self.motions.find(str(self.cube["record"].values[record]))
-        frame = self.building(stiffness_ratio, pretension, period)
-        return simulate(frame, found.motion, dt_out=found.motion.dt / finer), found.notice
 
     def packed(self, record: int, stiffness_ratio: int, pretension: int, period: int) -> bytes:
         """Return the history of a cell for the page: traces, and its peaks beside the cube's."""
@@ -157,15 +155,19 @@ def loop(slip: FloatArray, force: FloatArray) -> tuple[FloatArray, FloatArray]:
     return slip[kept], force[kept]
 
 
-def _frame_parameters(cube: xr.Dataset) -> dict[str, float]:
-    """Return what the cube's provenance says of the frame, as `Building.single_storey` names it."""
-    names = ("floor_mass", "brace_mass", "damping_ratio", "brace_damping_ratio")
+FRAME: Final = ("floor_mass", "brace_mass", "damping_ratio", "brace_damping_ratio")
+FRICTION: Final = ("friction_coefficient", "kinetic_friction_coefficient", "normal_force_factor")
+
+
+def _parameters(cube: xr.Dataset) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return what the cube's provenance says of frame and friction, as `fdspec.sweep` names it."""
     try:
         told: dict[str, Any] = json.loads(str(cube.attrs["parameters"]))
-        return {name: float(told[name]) for name in names}
+        frame = {name: float(told[name]) for name in FRAME}
+        return frame, {name: None if told[name] is None else float(told[name]) for name in FRICTION}
     except (KeyError, TypeError, ValueError) as error:
         raise InvalidInput(
-            f"the cube's attribute parameters does not tell {', '.join(names)} ({error}); "
+            f"the cube's attribute parameters does not tell {', '.join((*FRAME, *FRICTION))} ({error}); "
             "histories need a cube that fdspec sweep made"
         ) from error
 

@@ -16,6 +16,7 @@ from tornado.web import Application, RequestHandler
 
 from fdspec import store
 from fdspec.errors import FdspecError, InvalidInput, StoreError
+from fdspec.explore.best import packed_best
 from fdspec.explore.content import Content
 from fdspec.explore.page import plotly_script, served_page
 from fdspec.explore.rerun import Rerun
@@ -66,8 +67,13 @@ async def _serve(content: Content, rerun: Rerun, host: str, port: int, ready: Ca
     bound = sockets[0].getsockname()[1]
     ready(f"http://{f'[{host}]' if ':' in host else host}:{bound}/")
     # The kernels come from their cache while the reader looks at the page.
-    asyncio.get_running_loop().run_in_executor(None, import_module, "fdspec.single_storey")
+    asyncio.get_running_loop().run_in_executor(None, _warm)
     await asyncio.Event().wait()
+
+
+def _warm() -> None:
+    for kernels in ("fdspec.single_storey", "fdspec.columns", "fdspec.strain"):
+        import_module(kernels)
 
 
 def application(content: Content, rerun: Rerun, host: str) -> Application:
@@ -83,6 +89,7 @@ def application(content: Content, rerun: Rerun, host: str) -> Application:
         (r"/record/(\d+)", _Record, {"content": content}),
         (r"/history", _History, {"rerun": rerun}),
         (r"/history\.nc", _HistoryFile, {"rerun": rerun}),
+        (r"/best", _Best, {"rerun": rerun}),
     ]
     names = LOOPBACK_NAMES if is_loopback(host) else r".*"
     found = Application(log_function=lambda _: None)
@@ -135,43 +142,63 @@ class _Record(_Answer):
         self.finish(body)
 
 
-class _History(_Answer):
+class _Computed(_Answer):
+    """An answer that runs the engine, in a thread of its own."""
+
+    kind = "application/octet-stream"
+
     def initialize(self, rerun: Rerun) -> None:
         self.rerun = rerun
 
+    async def get(self) -> None:
+        try:
+            body = await asyncio.to_thread(self.computed)
+        except FdspecError as error:
+            self.refuse(error)
+            return
+        self.set_header("Content-Type", self.kind)
+        self.finish(body)
+
+    def computed(self) -> bytes:
+        """Return the body of the answer."""
+        raise NotImplementedError
+
+    def position(self, name: str) -> int:
+        """Return a position in the cube that the address names."""
+        text = self.get_query_argument(name, "")
+        if not (text.isascii() and text.isdecimal()):
+            raise InvalidInput(f"{name} must be a position in the cube, got {text!r}")
+        return int(text)
+
     def place(self) -> tuple[int, int, int, int]:
-        """Return the positions that the address names."""
-        positions = []
-        for name in ("record", "stiffness_ratio", "pretension", "period"):
-            text = self.get_query_argument(name, "")
-            if not text.isdecimal():
-                raise InvalidInput(f"{name} must be a position in the cube, got {text!r}")
-            positions.append(int(text))
-        record, ratio, force, period = positions
+        """Return the positions of the cell that the address names."""
+        record, ratio, force, period = (
+            self.position(name) for name in ("record", "stiffness_ratio", "pretension", "period")
+        )
         return record, ratio, force, period
 
-    async def get(self) -> None:
-        try:
-            body = await asyncio.to_thread(self.rerun.packed, *self.place())
-        except FdspecError as error:
-            self.refuse(error)
-            return
-        self.set_header("Content-Type", "application/octet-stream")
-        self.finish(body)
+
+class _History(_Computed):
+    def computed(self) -> bytes:
+        return self.rerun.packed(*self.place())
 
 
-class _HistoryFile(_History):
-    async def get(self) -> None:
-        try:
-            body = await asyncio.to_thread(self.written)
-        except FdspecError as error:
-            self.refuse(error)
-            return
-        self.set_header("Content-Type", "application/x-netcdf")
-        self.set_header("Content-Disposition", 'attachment; filename="history.nc"')
-        self.finish(body)
+class _Best(_Computed):
+    def computed(self) -> bytes:
+        period = self.position("period") if self.get_query_argument("period", "") else None
+        return packed_best(
+            self.rerun,
+            self.position("record"),
+            self.position("stiffness_ratio"),
+            self.get_query_argument("index", ""),
+            period,
+        )
 
-    def written(self) -> bytes:
+
+class _HistoryFile(_Computed):
+    kind = "application/x-netcdf"
+
+    def computed(self) -> bytes:
         """Return the history as the bytes of the file that `fdspec.save` writes."""
         history, _ = self.rerun.history(*self.place())
         with tempfile.TemporaryDirectory() as folder:

@@ -12,9 +12,10 @@ import xarray as xr
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Download, Page, Response
 
+import fdspec
 from fdspec import store
 from fdspec.units import G
-from tests.browser.conftest import NARROW, WIDE, Watched
+from tests.browser.conftest import NARROW, PATIENCE, WIDE, Watched
 from tests.explored import PERIOD, PRETENSION, STIFFNESS_RATIO, unpack
 
 pytestmark = pytest.mark.browser
@@ -158,6 +159,27 @@ def test_the_line_of_the_best_pretension(wide: Watched, address: str, cube: xr.D
     assert page.locator("#best").is_disabled()
 
 
+def test_the_best_pretension_is_searched_between_the_cubes(wide: Watched, address: str) -> None:
+    page = wide.open(address)
+    motion = fdspec.load_record("FSR1")
+    best = fdspec.best_pretension(motion, period=PERIOD, stiffness_ratio=4.0).isel(
+        record=0, stiffness_ratio=0
+    )
+    star = drawn(page, "over-pretension", 1)
+    here = best.isel(period=PERIOD.index(0.5))
+    assert star["x"] == pytest.approx([here["pretension"].item() / 1e3], rel=1e-12)
+    assert star["y"] == pytest.approx([here["peak_acceleration"].item() / G], rel=1e-12)
+    band = page.evaluate("document.querySelector('#over-pretension .plot').layout.shapes[0]")
+    assert band["x0"] == pytest.approx(here["band_start"].item() / 1e3, rel=1e-12)
+    assert f"the best is {here['pretension'].item() / 1e3:.4g} kN" in words(page, "over-pretension")
+    page.locator("#line").click()
+    page.wait_for_function("!document.querySelector('#line').disabled", timeout=PATIENCE)
+    wide.settled()
+    for card, trace in (("map-0", 1), ("best-pretension", 0)):
+        assert drawn(page, card, trace)["y"] == pytest.approx((best["pretension"] / 1e3).values, rel=1e-12)
+    assert "searched" in words(page, "map-0")
+
+
 def test_two_records_share_one_scale_and_both_have_histories(
     wide: Watched, address: str, cube: xr.Dataset
 ) -> None:
@@ -170,7 +192,13 @@ def test_two_records_share_one_scale_and_both_have_histories(
     largest = cube["peak_acceleration"].sel(record=["FSR1", "FMR1"]).max().item() / G
     assert first["zmax"] >= largest
     assert "FMR1" in page.locator("#history-1 h2").inner_text()
-    assert {drawn(page, "over-pretension", k)["line"]["dash"] for k in (0, 3)} == {"solid", "dash"}
+    curves = page.evaluate(
+        "document.querySelector('#over-pretension .plot').data.filter((t) => t.showlegend !== false)"
+    )
+    assert [(curve["name"], curve["line"]["dash"]) for curve in curves] == [
+        ("FSR1", "solid"),
+        ("FMR1", "dash"),
+    ]
     page.select_option("#compare", label="no other")
     wide.settled()
     assert page.locator("#map-1, #surface-1, #history-1").count() == 0
@@ -253,7 +281,7 @@ def test_everything_is_reached_and_used_by_keys(wide: Watched, address: str, cub
         if reached[-1] == "Where the numbers come from":
             break
         page.keyboard.press("Tab")
-    controls = ["record", "compare", "index", "ratio", "period", "force", "best", "turn"]
+    controls = ["record", "compare", "index", "ratio", "period", "force", "best", "line", "turn"]
     assert [name for name in reached if name in controls] == controls
     assert reached[0] == "Skip to the pictures"
     assert reached.count("PNG") == reached.count("CSV") == len(CARDS)
@@ -356,14 +384,14 @@ def test_colours_are_even_and_told_apart_by_colour_blind_eyes(wide: Watched, add
     for sight in SIGHTS:
         scale = lab(np.array([channels(colour) for _, colour in stops]), sight)
         rise = np.diff(scale[:, 0]) / np.diff(places)
-        # Lighter all the way, nowhere half or twice as fast as on the whole: it can be read without any colour.
+        # Lighter all the way, nowhere half or twice as fast as on the whole: it reads without any colour.
         assert (rise > 0.5 * rise.mean()).all(), sight
         assert (rise < 2.0 * rise.mean()).all(), sight
-    lines = [drawn(page, "over-pretension", k)["line"]["color"] for k in (0, 3)]
-    lines += [drawn(page, "history-0", k)["line"]["color"] for k in (0, 1, 4)]
-    for sight in SIGHTS:
-        seen = lab(np.array([channels(colour) for colour in dict.fromkeys(lines)]), sight)
-        apart = [np.linalg.norm(a - b) for k, a in enumerate(seen) for b in seen[:k]]
+    together = [("best-pretension", 0, 2), ("history-0", 0, 1), ("history-0", 3, 4)]  # on the same axes
+    for card, one, other in together:
+        pair = np.array([channels(drawn(page, card, k)["line"]["color"]) for k in (one, other)])
+        for sight in SIGHTS:
+            assert np.linalg.norm(np.subtract(*lab(pair, sight))) > 40.0, (card, sight)
 
 
 SIGHTS = {

@@ -9,10 +9,12 @@ import xarray as xr
 import fdspec
 from fdspec import store
 from fdspec.errors import InvalidInput, RecordError
-from fdspec.explore.motions import Motions, read_given
+from fdspec.explore.best import packed_best
+from fdspec.explore.motions import Found, Motions, read_given
 from fdspec.explore.rerun import COMPARED, LOOP_FINER, Rerun, loop
 from fdspec.motion import GroundMotion
-from tests.explored import own_motion, small_cube, unpack
+from fdspec.units import G
+from tests.explored import PERIOD, own_motion, small_cube, unpack
 
 CHANGED = {
     "floor_mass": 31e3,
@@ -179,3 +181,53 @@ def test_a_lazily_opened_cube_serves_as_well(tmp_path: Path, cube: xr.Dataset) -
     about, _ = unpack(Rerun(opened).packed(0, 1, 2, 2))
     opened.close()
     assert about["compared"][0]["cube"] == pytest.approx(about["compared"][0]["history"], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("index", "measure", "read"),
+    [
+        ("acceleration", "acceleration", lambda best: best["peak_acceleration"] / G),
+        (
+            "reduction_to_bare",
+            "acceleration",
+            lambda best: 100 * (1 - best["peak_acceleration"] / best["bare_acceleration"]),
+        ),
+        (
+            "reduction_to_braced",
+            "acceleration",
+            lambda best: 100 * (1 - best["peak_acceleration"] / best["braced_acceleration"]),
+        ),
+        ("displacement", "displacement", lambda best: 1e3 * best["peak_displacement"]),
+        ("rpi_index", "rpi", lambda best: best["index"]),
+        ("dissipated_share", "dissipated_energy", lambda best: 100 * (1 - best["index"])),
+    ],
+)
+def test_the_searched_best_is_that_of_the_package(cube: xr.Dataset, index: str, measure: str, read) -> None:
+    about, found = unpack(packed_best(Rerun(cube), 0, 1, index))
+    motion = fdspec.load_record("FSR1")
+    best = fdspec.best_pretension(motion, period=PERIOD, stiffness_ratio=4.0, index=measure)
+    best = best.isel(record=0, stiffness_ratio=0)
+    assert about == {"index": index, "notice": ""}
+    assert np.array_equal(found["pretension"], best["pretension"].values / 1e3)
+    assert np.array_equal(found["end"], best["band_end"].values / 1e3)
+    np.testing.assert_allclose(found["value"], read(best).values, rtol=1e-12)
+    _, one = unpack(packed_best(Rerun(cube), 0, 1, index, 2))
+    assert (one["pretension"], one["value"]) == (found["pretension"][2], found["value"][2])
+
+
+def test_the_searched_best_takes_all_parameters_of_the_cube() -> None:
+    motion = own_motion("FSR1")
+    changed = {**CHANGED, "period": [0.3, 0.5], "stiffness_ratio": [4.0]}
+    rerun = Rerun(small_cube(motion, **changed))
+    rerun.motions._found["FSR1"] = Found(motion)
+    _, found = unpack(packed_best(rerun, 0, 0, "acceleration"))
+    best = fdspec.best_pretension(motion, **changed)
+    assert np.array_equal(found["pretension"], best["pretension"].values.ravel() / 1e3)
+
+
+@pytest.mark.parametrize("index", ["travel", "velocity", "none", ""])
+def test_an_index_that_is_not_searched(cube: xr.Dataset, index: str) -> None:
+    with pytest.raises(InvalidInput, match=f"index must be one that .* searches, got '{index}'"):
+        packed_best(Rerun(cube), 0, 0, index)
+    with pytest.raises(InvalidInput, match="record must be a position"):
+        packed_best(Rerun(cube), 5, 0, "acceleration")

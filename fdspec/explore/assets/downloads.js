@@ -66,12 +66,17 @@ function sliceNumbers(s, index, shown) {
 }
 
 function bestNumbers(s, index, shown) {
-  const heads = ["period_s", ...shown.flatMap(({ k }) => [`${about.records[k].name}_best_pretension_kN`, `${about.records[k].name}_${named(index)}`])];
-  const rows = AXES.period.map((period, t) => [period, ...shown.flatMap(({ numbers }) => {
-    const places = numbers[`best ${index.name}`];
-    const f = places ? places[s.ratio * SIZES.period + t] : NaN;
-    return Number.isFinite(f) ? [AXES.pretension[f], cell(numbers[index.name], s.ratio, f, t)] : [null, null];
-  })]);
+  const lines = shown.map(({ k, numbers }) => ({ name: about.records[k].name, k, between: searchedEverywhere(s, k), ...bestLine(s, index, numbers, k) }));
+  const heads = ["period_s"], rows = AXES.period.map((period) => [period]);
+  for (const { name, k, between, x, y, z } of lines) {
+    heads.push(`${name}_best_pretension_kN`, `${name}_${named(index)}`);
+    if (between) heads.push(`${name}_band_start_kN`, `${name}_band_end_kN`);
+    AXES.period.forEach((period, t) => {
+      const at = x.indexOf(period), told = searchedAt(s, k, t);
+      rows[t].push(at < 0 ? null : y[at], at < 0 ? null : z[at]);
+      if (between) rows[t].push(told.start, Number.isFinite(told.end) ? told.end : "inf");
+    });
+  }
   return { heads, rows };
 }
 

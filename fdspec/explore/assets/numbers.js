@@ -86,6 +86,7 @@ function nearest(axis, value) {
 }
 
 function written(value, unit) {
+  if (typeof value === "string") return value;
   if (value === null || value === undefined || !Number.isFinite(value)) return "unknown";
   const digits = Number.isInteger(value) && Math.abs(value) < 1e6 ? String(value) : String(Number(value.toPrecision(4)));
   return unit ? `${digits}\u00a0${unit}` : digits;

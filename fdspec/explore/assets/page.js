@@ -1,7 +1,7 @@
 // The page: controls, cards of pictures, and what follows from what.
 
 const byId = (id) => document.getElementById(id);
-const control = Object.fromEntries(["record", "compare", "index", "ratio", "period", "force", "turn", "best"].map((id) => [id, byId(id)]));
+const control = Object.fromEntries(["record", "compare", "index", "ratio", "period", "force", "turn", "best", "line"].map((id) => [id, byId(id)]));
 
 const state = fromAddress({
   record: 0, compare: -1, index: 0, turn: -55,
@@ -110,10 +110,10 @@ function mapPicture(n, k, numbers, scale, kind) {
   const plot = kind === "map" ? contourPlot : surfacePlot;
   return {
     id: `${kind}-${n}`, place: "maps", look: "map",
-    plot: () => plot(state, index, numbers, scale),
+    plot: () => plot(state, index, numbers, scale, bestLine(state, index, numbers, k)),
     title: () => `${index.title}${unitOf(index)}: ${name}, stiffness ratio ${written(AXES.stiffness_ratio[state.ratio])}${kind === "map" ? "" : ", as a surface"}`,
     words: () => kind === "map"
-      ? [mapWords(state, k, index, numbers) + (index.best ? " Dots: best pretension at each period. Cross: the point." : " Cross: the point.")]
+      ? [mapWords(state, k, index, numbers) + (index.best ? ` Dots: best pretension at each period${searchedEverywhere(state, k) ? ", searched" : ""}. Cross: the point.` : " Cross: the point.")]
       : ["The numbers of the map beside it, over the same axes."],
     origin: () => originWords(k),
     file: () => fileName(name, index.name, `SR${AXES.stiffness_ratio[state.ratio]}`, kind),
@@ -142,7 +142,7 @@ function curvePicture(kind, shown) {
     ...common,
     plot: () => bestPlot(state, index, shown),
     title: () => `Best pretension over period: ${who}, ${at}`,
-    words: () => shown.map(({ k, numbers }) => element("div", `${about.records[k].name}: ${bestWords(state, index, numbers)}`)),
+    words: () => shown.map(({ k, numbers }) => element("div", `${about.records[k].name}: ${bestWords(state, k, index, numbers)}`)),
     file: () => fileName(...names, index.name, "best-pretension"),
     numbers: () => bestNumbers(state, index, shown),
     click: (point) => { state.period = nearest(AXES.period, point.x); chooseBest(); },
@@ -190,7 +190,7 @@ async function show(delay = 0) {
   try {
     const shown = await shownRecords();
     if (turn !== asked) return;
-    if (state.force === null) state.force = bestPlace(state, chosenIndex(), shown[0].numbers) ?? 0;
+    if (state.force === null) state.force = gridBest(state, chosenIndex(), shown[0].numbers, state.period) ?? 0;
     controlsFromState();
     toAddress();
     const index = chosenIndex();
@@ -217,6 +217,10 @@ async function show(delay = 0) {
     orderCards();
     tables(shown);
     await coming;
+    // A record that has no history has no search either, and that was said.
+    if (!about.served || byId("status").textContent || turn !== asked) return;
+    await searchHere(shown);
+    if (turn === asked) await draw(curvePicture("over-pretension", shown));
   } catch (error) {
     complain(error);
   } finally {
@@ -314,11 +318,36 @@ function controlsFromState() {
     }
   }
   control.best.disabled = !chosenIndex().best;
+  control.line.disabled = !chosenIndex().searched || searching;
   for (const option of control.compare.options) option.disabled = Number(option.value) === state.record;
 }
 
+// The best pretension at the point's period, between the cube's; it takes a twentieth of a second.
+async function searchHere(shown) {
+  if (!chosenIndex().searched) return;
+  const asking = { ...state };
+  await Promise.all(shown.map(({ k }) => search(asking, k, asking.period)));
+}
+
+// The same at every period; it takes a second or more, so it has a button.
+let searching = false;
+async function searchLine() {
+  searching = true;
+  controlsFromState();
+  control.line.textContent = "Searching\u2026";
+  try {
+    for (const { k } of await shownRecords()) await search(state, k);
+  } catch (error) {
+    complain(error);
+  } finally {
+    searching = false;
+    control.line.textContent = "Search the best line";
+    show();
+  }
+}
+
 async function chooseBest() {
-  const place = bestPlace(state, chosenIndex(), await recordNumbers(state.record));
+  const place = gridBest(state, chosenIndex(), await recordNumbers(state.record), state.period);
   if (place !== null) state.force = place;
   show();
 }
@@ -348,6 +377,8 @@ function connect() {
     for (const [id, made] of cards) if (id.startsWith("surface")) Plotly.relayout(made.plotted, { "scene.camera.eye": eye(state.turn) });
   });
   control.best.addEventListener("click", chooseBest);
+  control.line.addEventListener("click", searchLine);
+  control.line.hidden = !about.served;
   byId("controls").addEventListener("submit", (event) => event.preventDefault());
   if (!about.served) {
     byId("histories").append(notice(`This file has no server behind it, so a click shows the peaks of its cell in the tables below. For histories: fdspec explore ${about.name}`));

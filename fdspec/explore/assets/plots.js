@@ -29,25 +29,13 @@ function ends(values) {
   return [values[0], values[values.length - 1]];
 }
 
-function bestLine(s, index, numbers) {
-  const line = { x: [], y: [], z: [] };
-  for (let t = 0; index.best && t < SIZES.period; t++) {
-    const f = numbers[`best ${index.name}`][s.ratio * SIZES.period + t];
-    if (!Number.isFinite(f)) continue;
-    line.x.push(AXES.period[t]);
-    line.y.push(AXES.pretension[f]);
-    line.z.push(cell(numbers[index.name], s.ratio, f, t));
-  }
-  return line;
-}
-
 function pointMark(s, index, numbers) {
   const z = cell(numbers[index.name], s.ratio, s.force, s.period);
   return { x: [AXES.period[s.period]], y: [AXES.pretension[s.force]], z: [Number.isFinite(z) ? z : null] };
 }
 
-function contourPlot(s, index, numbers, scale) {
-  const best = bestLine(s, index, numbers), point = pointMark(s, index, numbers);
+function contourPlot(s, index, numbers, scale, best) {
+  const point = pointMark(s, index, numbers);
   const data = [
     {
       type: "contour", x: AXES.period, y: AXES.pretension, z: slice(numbers[index.name], s.ratio),
@@ -78,8 +66,8 @@ function eye(turn) {
   return { x: 1.85 * Math.cos(angle), y: 1.85 * Math.sin(angle), z: 1.0 };
 }
 
-function surfacePlot(s, index, numbers, scale) {
-  const best = bestLine(s, index, numbers), point = pointMark(s, index, numbers);
+function surfacePlot(s, index, numbers, scale, best) {
+  const point = pointMark(s, index, numbers);
   const lift = (z) => (z === null ? null : z + 0.01 * (scale.high - scale.low));
   const data = [
     {
@@ -110,9 +98,10 @@ function surfacePlot(s, index, numbers, scale) {
   };
 }
 
-// The index over pretension at the chosen period; rings stand within 5 % of the least.
+// The index over pretension at the chosen period; rings stand within 5 % of the least. Where the best between the
+// cube's pretensions was searched, a star is at it and a band about it.
 function slicePlot(s, index, shown) {
-  const data = [];
+  const data = [], bands = [];
   shown.forEach(({ k, numbers }, n) => {
     const look = RECORD_LINES[n];
     const y = AXES.pretension.map((_, f) => cell(numbers[index.name], s.ratio, f, s.period));
@@ -124,6 +113,15 @@ function slicePlot(s, index, shown) {
       marker: { symbol: close.map((c) => (c ? `${look.symbol}-open` : look.symbol)), color: look.color, size: close.map((c) => (c ? 11 : 6)), line: { width: 2 } },
       hovertemplate: `%{x} kN: %{y:.4g} ${index.unit}<extra>%{fullData.name}</extra>`,
     });
+    const told = searchedAt(s, k, s.period);
+    if (told && Number.isFinite(told.value)) {
+      data.push({
+        type: "scatter", mode: "markers", name: `${plain(about.records[k].name)}, searched`, x: [told.pretension], y: [told.value], showlegend: false,
+        marker: { symbol: "star", color: look.color, size: 15, line: { color: "#fff", width: 1 } },
+        hovertemplate: `best: %{x:.4g} kN: %{y:.4g} ${index.unit}<extra>%{fullData.name}</extra>`,
+      });
+      bands.push({ type: "rect", x0: told.start, x1: Math.min(told.end, 1.05 * AXES.pretension[SIZES.force - 1]), y0: 0, y1: 1, yref: "paper", fillcolor: look.color, opacity: 0.13, line: { width: 0 }, layer: "below" });
+    }
     if (index.name !== "acceleration") return;
     const level = (name, at, dash) => numbers[name] && data.push({
       type: "scatter", mode: "lines", name: `${plain(about.records[k].name)}, ${name} frame`, x: [AXES.pretension[0], AXES.pretension[SIZES.force - 1]],
@@ -137,7 +135,7 @@ function slicePlot(s, index, shown) {
     layout: layout({
       showlegend: true, legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0 }, margin: { l: 58, r: 12, t: 30, b: 42 },
       xaxis: axis("pretension, kN"), yaxis: axis(`${index.title.toLowerCase()}${unitOf(index)}`, { rangemode: "tozero" }),
-      shapes: [{ type: "line", x0: AXES.pretension[s.force], x1: AXES.pretension[s.force], y0: 0, y1: 1, yref: "paper", line: { color: LIMIT, width: 1, dash: "dot" } }],
+      shapes: [...bands, { type: "line", x0: AXES.pretension[s.force], x1: AXES.pretension[s.force], y0: 0, y1: 1, yref: "paper", line: { color: LIMIT, width: 1, dash: "dot" } }],
     }),
   };
 }
@@ -146,7 +144,7 @@ function slicePlot(s, index, shown) {
 function bestPlot(s, index, shown) {
   const data = [];
   shown.forEach(({ k, numbers }, n) => {
-    const look = RECORD_LINES[n], best = bestLine(s, index, numbers);
+    const look = RECORD_LINES[n], best = bestLine(s, index, numbers, k);
     const name = plain(about.records[k].name);
     const drawn = { type: "scatter", mode: "lines+markers", x: best.x, line: { color: look.color, dash: look.dash, width: 1.5 }, marker: { symbol: look.symbol, color: look.color, size: 4 } };
     data.push({ ...drawn, name, y: best.y, hovertemplate: `%{x} s: %{y} kN<extra>${name}</extra>` });

@@ -22,32 +22,31 @@ function mapWords(s, k, index, numbers) {
   }
   if (low.length === 1) return `No history of ${about.records[k].name} ended well here.`;
   const at = ([v, f, t]) => `${written(v, index.unit)} at ${written(AXES.period[t], "s")} and ${written(AXES.pretension[f], "kN")}`;
-  const parts = [`From ${at(low)} to ${at(high)}.`, bestWords(s, index, numbers)];
+  const parts = [`From ${at(low)} to ${at(high)}.`, bestWords(s, k, index, numbers)];
   if (missing) parts.push(`${missing} histories did not end well and are left out.`);
   return parts.filter(Boolean).join(" ");
 }
 
-function bestPlace(s, index, numbers) {
-  const places = numbers[`best ${index.name}`];
-  const place = places ? places[s.ratio * SIZES.period + s.period] : NaN;
-  return Number.isFinite(place) ? place : null;
-}
-
-function bestWords(s, index, numbers) {
+function bestWords(s, k, index, numbers) {
   if (!index.best) return "This index has no best pretension.";
-  const place = bestPlace(s, index, numbers);
+  const place = gridBest(s, index, numbers, s.period), told = searchedAt(s, k, s.period);
   if (place === null) return "";
-  return `At ${written(AXES.period[s.period], "s")} the best of these pretensions is ${written(AXES.pretension[place], "kN")}: ` +
+  const of = `At ${written(AXES.period[s.period], "s")} the best of these pretensions is ${written(AXES.pretension[place], "kN")}: ` +
     `${written(cell(numbers[index.name], s.ratio, place, s.period), index.unit)}.`;
+  if (!told || !Number.isFinite(told.value)) return of;
+  const end = Number.isFinite(told.end) ? `to ${written(told.end, "kN")}` : "without end";
+  return `${of} Between them the best is ${written(told.pretension, "kN")}: ${written(told.value, index.unit)}, ` +
+    `and within 5 % of it from ${written(told.start, "kN")} ${end}.`;
 }
 
 function curveWords(s, k, index, numbers) {
   const here = cell(numbers[index.name], s.ratio, s.force, s.period);
-  return `${about.records[k].name}: ${written(here, index.unit)} at ${written(AXES.pretension[s.force], "kN")}. ${bestWords(s, index, numbers)}`;
+  return `${about.records[k].name}: ${written(here, index.unit)} at ${written(AXES.pretension[s.force], "kN")}. ${bestWords(s, k, index, numbers)}`;
 }
 
 function sliceMarks(index) {
   const marks = index.best === "least" ? ["Open marks: within 5 % of the least."] : [];
+  if (about.served && index.searched) marks.push("Star and band: searched between the marks.");
   if (index.name === "acceleration") marks.push("Dotted: the bare frame; dash and dots: the frame braced for good.");
   return marks.join(" ");
 }
