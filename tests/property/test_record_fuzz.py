@@ -95,6 +95,7 @@ def check(path, content: bytes, count: int | None = None, **arguments) -> bool:
 
     With `count`, what is accepted must have that many samples.
     """
+    path.unlink(missing_ok=True)  # a file that is cut to nothing first waits for the disk
     path.write_bytes(content)
     start = time.perf_counter()
     refusal = None
