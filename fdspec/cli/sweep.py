@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from fdspec.cli.held import holds
 from fdspec.cli.output import force_option, free
 from fdspec.cli.record_options import file_options, named_records
 from fdspec.cli.run_options import STORE_SUFFIX, client_of, kept, logged, run_options, store_of
@@ -100,6 +101,9 @@ def sweep(
     if sum(one is not None for one in (threads, workers, scheduler)) > 1:
         raise click.UsageError("--threads, --workers and --scheduler exclude each other")
     path = Path(output or ("study.nc" if study_file is None else f"{Path(study_file).stem}.nc"))
+    if path.is_file() and not force and holds(path, study, study.motions()):
+        click.echo(f"{path} holds this study already: nothing to compute; --force computes it again")
+        return
     if path.suffix != STORE_SUFFIX:
         free(path, force=force)
     if dry_run:

@@ -1,0 +1,40 @@
+"""Whether a file holds already what a sweep is asked to compute."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from fdspec.motion import GroundMotion
+    from fdspec.study import Study
+
+
+def holds(path: Path, study: Study, motions: Sequence[GroundMotion]) -> bool:
+    """Say whether a file holds the cube of this study: same version, parameters and numbers of the records.
+
+    Any doubt is a no: a file that is none of ours, or was made otherwise.
+    """
+    import fdspec
+    from fdspec.cube import chosen
+    from fdspec.errors import FdspecError
+    from fdspec.store import provenance
+    from fdspec.sweep import ON_REQUEST, OUTPUTS
+
+    try:
+        with fdspec.open(path) as cube:
+            told = dict(cube.attrs)
+        held = json.loads(told.get("parameters", "{}"))
+    except (FdspecError, ValueError):
+        return False
+    outputs = OUTPUTS if study.outputs is None else study.outputs
+    parameters = {
+        **{name: getattr(study.grid, name) for name in study.grid.__dataclass_fields__},
+        "certify": study.certify,
+        "outputs": list(chosen(outputs, (*OUTPUTS, *ON_REQUEST), study.certify)),
+    }
+    wanted = provenance("", parameters, motions)
+    same_version = told.get("fdspec_version") == wanted["fdspec_version"]
+    return bool(same_version and held == json.loads(wanted["parameters"]))
