@@ -11,6 +11,7 @@ __version__ = "0.1.0"
 
 if TYPE_CHECKING:
     from fdspec.building import Building
+    from fdspec.choice.choose import choose
     from fdspec.choice.distribution import optimise
     from fdspec.choice.pretension import best_pretension
     from fdspec.damping import DampingMatrix, ModalDamping, RayleighDamping
@@ -32,6 +33,7 @@ __all__ = [
     "Study",
     "__version__",
     "best_pretension",
+    "choose",
     "export",
     "load_record",
     "open",
@@ -51,6 +53,7 @@ _HOME = {
     "RayleighDamping": "damping",
     "Study": "study",
     "best_pretension": "choice",
+    "choose": "choice",
     "export": "store",
     "load_record": "records",
     "open": "store",

@@ -104,13 +104,13 @@ class Bench:
             rows = [np.array([row]) for row in zip(*(self.braced[of] for of in name), strict=True)]
             reach = np.max([_reach(self.building, *row.T) for row in rows], axis=0)
         else:
-            reach = np.max([_reach_of_frame(self.building, motion) for motion in self.motions], axis=0)
+            reach = np.max([self._reach(motion) for motion in self.motions], axis=0)
         return np.where(self.braced_storeys, reach * (1.0 + 1e-9), 0.0)
 
     @cached_property
     def bare(self) -> dict[str, FloatArray]:
         """Response -> (r,): of the frame without its braces."""
-        return self._limit(_bare(self.building))
+        return self._limit(without_braces(self.building))
 
     @cached_property
     def braced(self) -> dict[str, FloatArray]:
@@ -122,8 +122,42 @@ class Bench:
         """(N,) N: peak storey shears with dampers that never slip, averaged over the records."""
         if self.storeys == 1:
             return np.array([self.braced["peak_base_shear"].mean()])
-        peaks = [_stuck(self.building, motion)["peak_storey_shear"] for motion in self.motions]
+        peaks = [self.peaks_of(self._stuck, motion)["peak_storey_shear"] for motion in self.motions]
         return np.asarray(np.mean(peaks, axis=0))
+
+    def with_slip_force(self, slip_force: FloatArray) -> Building:
+        """The building with these slip forces (N,), its frictions in the same ratio."""
+        b = self.building
+        force = np.where(self.braced_storeys, slip_force, 0.0)
+        kinetic = np.where(np.isfinite(force), force * self.kinetic_ratio, np.inf)
+        return Building(
+            b.floor_mass,
+            b.storey_stiffness,
+            b.brace_mass,
+            b.brace_stiffness,
+            force,
+            np.where(self.braced_storeys, kinetic, 0.0),
+            b.damping,
+            b.brace_damping,
+        )
+
+    @staticmethod
+    def peaks_of(building: Building, motion: GroundMotion) -> dict[str, FloatArray]:
+        """Peaks (N,) of every storey, by name: `fdspec.kernels.mdof.STOREY_RESULTS`."""
+        from fdspec.kernels.mdof import STOREY_RESULTS
+        from fdspec.many_storeys import peaks_of
+
+        by_storey, _ = peaks_of(building.frame, motion, certify=False)
+        return dict(zip(STOREY_RESULTS, by_storey, strict=True))
+
+    @cached_property
+    def _stuck(self) -> Building:
+        return self.with_slip_force(np.full(self.storeys, np.inf))
+
+    def _reach(self, motion: GroundMotion) -> FloatArray:
+        peak = self.peaks_of(self._stuck, motion)
+        velocity = peak["peak_velocity"] + np.append(0.0, peak["peak_velocity"][:-1])
+        return _reach(self.building, peak["peak_acceleration"], peak["peak_drift"], velocity)
 
     @property
     def storeys(self) -> int:
@@ -162,7 +196,8 @@ class Bench:
         return {name: values[0] for name, values in found.items()}
 
 
-def _bare(building: Building) -> Building:
+def without_braces(building: Building) -> Building:
+    """The bare frame of a building."""
     none = np.zeros(building.n_storeys)
     return Building(
         building.floor_mass, building.storey_stiffness, none, none, none, none, building.damping, none
@@ -178,22 +213,6 @@ def _reach(
         + building.brace_stiffness * drift
         + building.brace_damping * drift_rate
     )
-
-
-def _reach_of_frame(building: Building, motion: GroundMotion) -> FloatArray:
-    peak = _stuck(building, motion)
-    velocity = peak["peak_velocity"] + np.append(0.0, peak["peak_velocity"][:-1])
-    return _reach(building, peak["peak_acceleration"], peak["peak_drift"], velocity)
-
-
-def _stuck(building: Building, motion: GroundMotion) -> dict[str, FloatArray]:
-    """Peaks (N,) of the storeys with dampers that never slip, by name."""
-    from fdspec.kernels.mdof import STOREY_RESULTS
-    from fdspec.many_storeys import peaks_of
-
-    never = np.where(building.brace_stiffness > 0.0, np.inf, 0.0)
-    by_storey, _ = peaks_of(_with(building.frame, never, never), motion, certify=False)
-    return dict(zip(STOREY_RESULTS, by_storey, strict=True))
 
 
 def _with(frame: Frame, slip_force: FloatArray, kinetic_slip_force: FloatArray) -> Frame:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from fdspec.building import Building
 from fdspec.choice.bench import Bench
-from fdspec.choice.search import FINEST, POINTS, Scan, scan
+from fdspec.choice.search import FINEST, POINTS, Function, Scan, scan
 from fdspec.choice.variables import OPTIMUM
 from fdspec.cube import assemble
 from fdspec.errors import InvalidInput
@@ -160,15 +160,18 @@ def shape_of(bench: Bench, distribution: str) -> FloatArray:
     return np.asarray(shear / shear.max())
 
 
-def best_scale(bench: Bench, shape: FloatArray, band: float = BAND) -> Scan:
-    """Scan the factor on a shape (N,) up to where no damper slips any more: a `Scan` over the factor."""
+def best_scale(bench: Bench, shape: FloatArray, band: float = BAND, judge: Function | None = None) -> Scan:
+    """Scan the factor on a shape (N,) up to where no damper slips any more: a `Scan` over the factor.
+
+    judge: takes slip forces (c, N) and returns what is to be least (c,), the bench's own unless given.
+    """
     with np.errstate(divide="ignore", invalid="ignore"):
         needed = np.where(shape > 0.0, bench.never_slips / shape, 0.0)
     points, finest = (FRAME_POINTS, FRAME_FINEST) if bench.storeys > 1 else (POINTS, FINEST)
     top = float(needed.max())
 
     def judged(factor: FloatArray) -> FloatArray:
-        return bench.judge(factor[:, np.newaxis] * shape)
+        return (judge or bench.judge)(factor[:, np.newaxis] * shape)
 
     return scan(judged, top, points=points, finest=finest, share=band)
 

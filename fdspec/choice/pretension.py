@@ -107,7 +107,7 @@ def best_pretension(
     --------
     >>> import fdspec
     >>> best = fdspec.best_pretension(fdspec.load_record("FSR1"), period=0.5, stiffness_ratio=4)
-    >>> bool(best.index.item() < 0.5)
+    >>> bool(best.index.item() < 0.6)
     True
     """
     grid = Grid(

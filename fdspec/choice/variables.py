@@ -77,3 +77,44 @@ OPTIMUM: Final[Registry] = registry_of(
     ),
 )
 """The best distribution of slip forces over a building."""
+
+_CASE: Final = ("case", "record")
+
+CHOICE: Final[Registry] = registry_of(
+    motion_variables(_RECORD),
+    (
+        Variable("storey", _STOREY, "1", "storey, counted from 1 at the ground", "int64"),
+        Variable("bound", ("bound",), "", "which end of the band", TEXT),
+        Variable("case", ("case",), "", "what the slip forces are", TEXT),
+        Variable("slip_force", _STOREY, "N", "recommended friction force at which the damper starts to slip"),
+        Variable("pretension", _STOREY, "N", "recommended pretension"),
+        Variable(
+            "band_slip_force", ("bound", "storey"), "N", "ends of the band of slip forces that are good"
+        ),
+        Variable(
+            "band_pretension", ("bound", "storey"), "N", "ends of the band of pretensions that are good"
+        ),
+        Variable("brace_stiffness", _STOREY, "N/m", "stiffness of the brace"),
+        Variable(
+            "brace_force", _STOREY, "N", "force that the brace must carry at the upper bound of friction"
+        ),
+        Variable("stiffness_scale", ("stiffness_scale",), "1", "factor on the stiffness of all braces"),
+        Variable("scaled_index", ("stiffness_scale",), "1", "least index with braces so much stiffer"),
+        Variable("scaled_pretension", ("stiffness_scale", "storey"), "N", "pretensions of that"),
+        Variable("trial_pretension", ("trial", "storey"), "N", "pretensions tried, ascending"),
+        Variable("trial_index", ("trial",), "1", "index of all records together"),
+        Variable("trial_index_of_record", ("trial", "record"), "1", "index of the record"),
+        Variable("index", ("case",), "1", "index of all records together"),
+        Variable("index_of_record", _CASE, "1", "index of the record"),
+        Variable("regret", _RECORD, "1", "index over the least that the record has in any trial, less 1"),
+        Variable("peak_acceleration", _CASE, "m/s^2", "largest peak absolute acceleration of any floor"),
+        Variable(
+            "peak_drift", _CASE, "m", "largest peak displacement of any floor relative to the one below"
+        ),
+        Variable("peak_base_shear", _CASE, "N", "peak shear force on the ground"),
+        Variable("residual_drift", _CASE, "m", "largest final displacement relative to the floor below"),
+        Variable("slip_travel", _CASE, "m", "largest total distance slipped in any damper"),
+        Variable("dissipated_energy", _CASE, "J", "energy dissipated by friction in all dampers"),
+    ),
+)
+"""What `fdspec.choose` recommends, and why."""

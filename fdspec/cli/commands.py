@@ -11,6 +11,7 @@ COMMANDS = {
         "Compute the cube of a study; without a file, the study of the nine records.",
     ),
     "simulate": ("fdspec.cli.simulate:simulate", "Compute the history of one frame under one record."),
+    "choose": ("fdspec.cli.choose:choose", "Recommend a pretension, with its gain and its bounds."),
     "records": ("fdspec.cli.records:records", "List, show, check, convert and draw ground motions."),
     "figures": ("fdspec.cli.figures:figures", "Draw the study's figures."),
     "claims": ("fdspec.cli.claims:claims", "Put the study's conclusions to a cube."),

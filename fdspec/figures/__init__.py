@@ -1,5 +1,6 @@
 """Figures: a Dataset or ground motions go in, a matplotlib Figure comes out; no files, no data made here."""
 
+from fdspec.figures.choice import plot_before_after, plot_choice_index, plot_choice_records
 from fdspec.figures.contact_sheet import plot_contact_sheet
 from fdspec.figures.encoding import encode
 from fdspec.figures.energy import plot_energy
@@ -18,7 +19,10 @@ __all__ = [
     "plot_acceleration",
     "plot_acceleration_maps",
     "plot_bare_and_damped",
+    "plot_before_after",
     "plot_brace_displacements",
+    "plot_choice_index",
+    "plot_choice_records",
     "plot_contact_sheet",
     "plot_energy",
     "plot_grazing",

@@ -1,0 +1,277 @@
+"""One recommendation for one building and its records, with what it gains and how wrong it may be."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from fdspec.building import Building
+from fdspec.choice.bench import Bench
+from fdspec.choice.distribution import DISTRIBUTIONS, best_scale, optimise, shape_of
+from fdspec.choice.search import Scan
+from fdspec.choice.variables import CHOICE
+from fdspec.cube import assemble
+from fdspec.errors import InvalidInput
+from fdspec.measures.ensemble import statistic_of
+from fdspec.measures.indices import Weights, weights_of
+from fdspec.motion import GroundMotion
+from fdspec.progress import progress as progress_bar
+from fdspec.simulate import simulate
+
+FloatArray = NDArray[np.float64]
+
+CASES: Final = ("bare", "braced", "chosen", "lower", "upper")
+"""Without braces; dampers that never slip; the recommendation; and that with friction at its bounds."""
+
+RESPONSES: Final = {
+    "peak_acceleration": "peak_acceleration",
+    "peak_drift": "peak_displacement",
+    "peak_base_shear": "peak_base_shear",
+    "residual_drift": "residual_displacement",
+    "slip_travel": "slip_travel",
+    "dissipated_energy": "dissipated_energy",
+}
+"""Variable of the choice -> what a bench calls it."""
+
+RINGING: Final = 8
+"""Instants in each step of a record at which the force in a brace of many storeys is looked at."""
+
+STIFFNESS_SCALE: Final = (0.5, 1.0, 2.0)
+"""Factors on the braces' stiffness that are compared."""
+
+
+def choose(
+    building: Building,
+    motions: GroundMotion | Sequence[GroundMotion],
+    *,
+    index: str | Weights = "acceleration",
+    statistic: str = "mean",
+    distribution: str = "uniform",
+    lower: float = 0.8,
+    upper: float = 1.2,
+    band: float = 0.05,
+    friction_coefficient: float = 0.5,
+    normal_force_factor: float = 1.0,
+    stiffness_scale: Sequence[float] = STIFFNESS_SCALE,
+    seed: int = 0,
+    workers: int | None = None,
+    progress: bool = False,
+) -> xr.Dataset:
+    """Recommend a pretension for one building and its records, and tell what it gains and may lose.
+
+    Parameters
+    ----------
+    building : Building
+        With its braces; its own slip forces tell nothing but the ratio of kinetic to static friction.
+    motions : GroundMotion or sequence of them
+        Named differently.
+    index : str or mapping of str to float
+        What is to be least; see `fdspec.measures.index_of`.
+    statistic : str
+        "mean", "median", "p84" or "worst" of it over the records.
+    distribution : str
+        Of the slip forces over the storeys: "uniform", "shear" or "free"; see `fdspec.optimise`.
+    lower, upper : float
+        Property modification factors on the slip force for the bounding analysis, 0 < lower <= 1 <= upper:
+        ASCE/SEI 7-22, 18.2.4.5, asks that structures with damping systems be analysed with the least and
+        with the largest properties that wear, temperature, testing and production leave room for.
+    band : float
+        Share above the least index that counts as nearly as good.
+    friction_coefficient, normal_force_factor : float
+        Pretension = slip force / (friction_coefficient * normal_force_factor).
+    stiffness_scale : sequence of float
+        Factors on the stiffness of all braces whose best is compared.
+    seed : int
+        Of the search for a free distribution.
+    workers : int, optional
+        Threads; one a core unless given.
+    progress : bool
+        Show a bar on stderr where it is a terminal.
+
+    Returns
+    -------
+    xarray.Dataset
+        The variables of `fdspec.choice.variables.CHOICE`: the recommendation and its band by storey; over
+        (case, record) the responses of the bare and the braced frame, of the recommendation and of
+        friction at its bounds; every pretension tried and the index there; the same for other braces.
+        `fdspec.report` makes text and a page of it.
+
+    Raises
+    ------
+    InvalidInput
+        For an argument that cannot be used, by name and value.
+
+    Examples
+    --------
+    >>> import fdspec
+    >>> frame = fdspec.Building.single_storey(period=0.5, stiffness_ratio=4, slip_force=1)
+    >>> choice = fdspec.choose(frame, fdspec.load_record("FSR1"), stiffness_scale=[1])
+    >>> bool(choice["index"].sel(case="chosen") < choice["index"].sel(case="braced"))
+    True
+    """
+    if distribution not in DISTRIBUTIONS:
+        raise InvalidInput(f"distribution must be one of {', '.join(DISTRIBUTIONS)}, got {distribution!r}")
+    if not 0.0 < lower <= 1.0 <= upper < np.inf:
+        raise InvalidInput(f"lower and upper must be positive, about 1, got {lower!r} and {upper!r}")
+    if not 0.0 <= band < np.inf:
+        raise InvalidInput(f"band must be zero or positive, got {band!r}")
+    for name, value in (
+        ("friction_coefficient", friction_coefficient),
+        ("normal_force_factor", normal_force_factor),
+    ):
+        if not 0.0 < value < np.inf:
+            raise InvalidInput(f"{name} must be positive and finite, got {value!r}")
+    scales = sorted({1.0, *(float(scale) for scale in stiffness_scale)})
+    if not 0.0 < scales[0] <= scales[-1] < np.inf:
+        raise InvalidInput(f"stiffness_scale must be positive and finite, got {list(stiffness_scale)!r}")
+    given = (motions,) if isinstance(motions, GroundMotion) else tuple(motions)
+    bench = Bench(building, given, index, statistic, workers)
+    with progress_bar(len(scales) + 1, "searches", shown=progress) as done:
+        shape = _shape(bench, distribution, seed)
+        done(1)
+        found, of_record = _searched(bench, shape, band)
+        done(1)
+        scans = {1.0: found}
+        for scale in scales:
+            if scale != 1.0:
+                other = replace(bench, building=_with_braces(building, scale))
+                scans[scale] = best_scale(other, shape, band)
+                done(1)
+    if not np.isfinite(found.least):
+        raise InvalidInput("no history of this building ended well: there is nothing to recommend")
+    force = found.best * shape
+    responses, indices = _cases(bench, {"chosen": force, "lower": lower * force, "upper": upper * force})
+    bands = found.bands(band)
+    ends = _per_storey(bands[(bands[:, 0] <= found.best) & (found.best <= bands[:, 1])][0], shape)
+    per_pretension = friction_coefficient * normal_force_factor
+    least = of_record.min(axis=0)
+    variables = {
+        "slip_force": force,
+        "pretension": force / per_pretension,
+        "band_slip_force": ends,
+        "band_pretension": ends / per_pretension,
+        "brace_stiffness": building.brace_stiffness,
+        "brace_force": _brace_force(bench, upper * force),
+        "scaled_index": np.array([scans[scale].least for scale in scales]),
+        "scaled_pretension": np.array([scans[scale].best * shape for scale in scales]) / per_pretension,
+        "trial_pretension": found.x[:, np.newaxis] * shape / per_pretension,
+        "trial_index": found.y,
+        "trial_index_of_record": of_record,
+        "index": _together(bench, indices),
+        "index_of_record": indices,
+        "regret": indices[CASES.index("chosen")] / least - 1.0,
+        **responses,
+    }
+    return assemble(
+        variables,
+        {
+            "storey": np.arange(1, bench.storeys + 1),
+            "bound": ["start", "end"],
+            "case": list(CASES),
+            "stiffness_scale": np.array(scales),
+        },
+        CHOICE,
+        bench.motions,
+        title="Recommended pretension of a building with friction dampers",
+        parameters={
+            **{name: value for name, value in building.parameters.items() if "slip_force" not in name},
+            "kinetic_ratio": bench.kinetic_ratio,
+            "index": weights_of(index),
+            "statistic": statistic,
+            "distribution": distribution,
+            "lower": lower,
+            "upper": upper,
+            "band": band,
+            "friction_coefficient": friction_coefficient,
+            "normal_force_factor": normal_force_factor,
+            "seed": seed,
+        },
+        command="fdspec.choose",
+    )
+
+
+def _shape(bench: Bench, distribution: str, seed: int) -> FloatArray:
+    """Slip forces (N,) of the distribution over the largest of them."""
+    if distribution != "free":
+        return shape_of(bench, distribution)
+    best = optimise(
+        bench.building,
+        bench.motions,
+        index=bench.index,
+        statistic=bench.statistic,
+        seed=seed,
+        workers=bench.workers,
+    )["slip_force"].values
+    return np.asarray(best / best.max()) if best.max() > 0.0 else shape_of(bench, "uniform")
+
+
+def _searched(bench: Bench, shape: FloatArray, band: float) -> tuple[Scan, FloatArray]:
+    """Scan, and keep the index of each record in every trial: (trials, records)."""
+    factors, indices = [], []
+    largest = int(shape.argmax())
+
+    def judged(forces: FloatArray) -> FloatArray:
+        each = bench.index_of(bench.respond(forces))
+        factors.append(forces[:, largest])
+        indices.append(each)
+        return _together(bench, each)
+
+    found = best_scale(bench, shape, band, judged)
+    order = np.argsort(np.concatenate(factors), kind="stable")
+    return found, np.concatenate(indices)[order]
+
+
+def _together(bench: Bench, indices: FloatArray) -> FloatArray:
+    return np.asarray(statistic_of(bench.statistic)(indices, axis=1))
+
+
+def _with_braces(building: Building, scale: float) -> Building:
+    """The building with braces of another stiffness, whose dashpots keep their damping ratio."""
+    return Building(
+        building.floor_mass,
+        building.storey_stiffness,
+        building.brace_mass,
+        scale * building.brace_stiffness,
+        building.slip_force,
+        building.kinetic_slip_force,
+        building.damping,
+        np.sqrt(scale) * building.brace_damping,
+    )
+
+
+def _cases(bench: Bench, forces: dict[str, FloatArray]) -> tuple[dict[str, FloatArray], FloatArray]:
+    """Responses (cases, records) by name, and indices (cases, records)."""
+    given = bench.respond(np.array([forces[case] for case in CASES[2:]]))
+    rows = {name: [bench.bare[name], bench.braced[name], *given[name]] for name in given}
+    table = {name: np.array(values) for name, values in rows.items()}
+    return {name: table[of] for name, of in RESPONSES.items()}, bench.index_of(table)
+
+
+def _brace_force(bench: Bench, force: FloatArray) -> FloatArray:
+    """Largest force (N,) in the springs of the braces under any record.
+
+    A light brace rings when friction changes its sign, and so carries more than the slip force.
+    """
+    building = bench.with_slip_force(force)
+    if bench.storeys == 1:
+        reach = [bench.peaks_of(building, motion)["peak_brace_displacement"] for motion in bench.motions]
+        return np.asarray(building.brace_stiffness * np.max(reach, axis=0))
+    largest = np.zeros(bench.storeys)
+    for motion in bench.motions:
+        history = simulate(building, motion, dt_out=motion.dt / RINGING)
+        below = np.roll(history["displacement"].values, 1, axis=1)
+        below[:, 0] = 0.0
+        stretch = np.abs(history["brace_displacement"].values - below).max(axis=0)
+        largest = np.maximum(largest, building.brace_stiffness * stretch)
+    return largest
+
+
+def _per_storey(factor: FloatArray, shape: FloatArray) -> FloatArray:
+    """Factors (m,), infinite ones among them, times a shape (N,): 0 where that is."""
+    with np.errstate(invalid="ignore"):
+        return np.where(shape > 0.0, factor[:, np.newaxis] * shape, 0.0)

@@ -1,0 +1,201 @@
+"""`fdspec choose`: which pretension, for which brace, with what gain, and how wrong it may be."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+from fdspec.cli.output import force_option, free
+from fdspec.cli.record_options import file_options, named_records
+
+if TYPE_CHECKING:
+    from fdspec.building import Building
+
+PAGES = (".html", ".htm")
+
+
+@click.command()
+@click.option(
+    "--record",
+    "records",
+    multiple=True,
+    metavar="NAME|FILE",
+    help="A record of the catalogue, or a file; repeat it.  [default: the study's nine]",
+)
+@file_options
+@click.option(
+    "--raw", is_flag=True, help="Leave a catalogue's record as recorded, not scaled to the study's PGA."
+)
+@click.option(
+    "--building", metavar="FILE.toml", help="A building, in place of the single-storey frame of the options."
+)
+@click.option(
+    "--period", type=float, default=0.5, show_default=True, metavar="S", help="Of the bare frame, s."
+)
+@click.option(
+    "--stiffness-ratio", type=float, default=4.0, show_default=True, metavar="X", help="Brace over frame."
+)
+@click.option("--floor-mass", type=float, default=20e3, show_default=True, metavar="KG")
+@click.option("--brace-mass", type=float, default=50.0, show_default=True, metavar="KG")
+@click.option("--damping-ratio", type=float, default=0.05, show_default=True, metavar="X")
+@click.option("--friction-coefficient", type=float, default=0.5, show_default=True, metavar="X")
+@click.option(
+    "--kinetic-friction-coefficient", type=float, metavar="X", help="[default: the friction coefficient]"
+)
+@click.option(
+    "--normal-force-factor",
+    type=float,
+    default=1.0,
+    show_default=True,
+    metavar="X",
+    help="Normal force for each newton of pretension: 2 n for the force of one of n bolts, two faces.",
+)
+@click.option(
+    "--index",
+    default="acceleration",
+    show_default=True,
+    metavar="NAME",
+    help="acceleration, displacement, base_shear, rpi, dissipated_energy or weighted; "
+    "or weights, as acceleration=0.7,rpi=0.3.",
+)
+@click.option(
+    "--statistic",
+    type=click.Choice(["mean", "median", "p84", "worst"]),
+    default="mean",
+    show_default=True,
+    help="Of the index over the records.",
+)
+@click.option(
+    "--distribution",
+    type=click.Choice(["uniform", "shear", "free"]),
+    default="uniform",
+    show_default=True,
+    help="Of the slip forces of a building: equal, in proportion to storey shear, or free.",
+)
+@click.option(
+    "--lower",
+    type=float,
+    default=0.8,
+    show_default=True,
+    metavar="X",
+    help="Property modification factor: least slip force over the nominal.",
+)
+@click.option(
+    "--upper", type=float, default=1.2, show_default=True, metavar="X", help="The same of the largest."
+)
+@click.option("--seed", type=int, default=0, show_default=True, metavar="N", help="Of a free distribution.")
+@click.option("--workers", type=int, metavar="N", help="Threads.  [default: one a core]")
+@click.option("--html", metavar="FILE.html", help="Write the report as one page with pictures too.")
+@click.option("-o", "--output", metavar="FILE.nc", help="Write every number of it, netCDF.")
+@force_option
+def choose(
+    records: tuple[str, ...],
+    units: str | None,
+    dt: float | None,
+    channel: str | None,
+    raw: bool,
+    building: str | None,
+    period: float,
+    stiffness_ratio: float,
+    floor_mass: float,
+    brace_mass: float,
+    damping_ratio: float,
+    friction_coefficient: float,
+    kinetic_friction_coefficient: float | None,
+    normal_force_factor: float,
+    index: str,
+    statistic: str,
+    distribution: str,
+    lower: float,
+    upper: float,
+    seed: int,
+    workers: int | None,
+    html: str | None,
+    output: str | None,
+    force: bool,
+) -> None:
+    """Recommend the pretension of a friction damper for one frame or building and a set of records.
+
+    Prints the recommendation with its band, what it gains, the worst record, what limits it, and a bounding
+    analysis with friction at its lower and upper bound. Without options: the study's frame of 0.5 s and
+    stiffness ratio 4 under its nine records.
+
+    \b
+    Example:
+        fdspec choose --record FSR1 --record mine.AT2 --period 0.8 --html choice.html
+    """
+    page_path = None if html is None else free(html, force=force, suffixes=PAGES)
+    cube_path = None if output is None else free(output, force=force)
+    click_context = click.get_current_context()
+    if building is not None:
+        frame_options = ("period", "stiffness_ratio", "floor_mass", "brace_mass", "damping_ratio")
+        for name in (*frame_options, "kinetic_friction_coefficient"):
+            if click_context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
+                option = "--" + name.replace("_", "-")
+                raise click.UsageError(
+                    f"{option} is of the single-storey frame; {building} tells the building."
+                )
+
+    from fdspec.building import Building
+    from fdspec.building_file import read_building
+    from fdspec.choice import choose as compute
+    from fdspec.report.text import text
+    from fdspec.study import STUDY_RECORDS, find_record
+
+    chosen: Building = (
+        read_building(building)
+        if building is not None
+        else Building.single_storey(
+            period=period,
+            stiffness_ratio=stiffness_ratio,
+            slip_force=friction_coefficient,
+            kinetic_slip_force=kinetic_friction_coefficient,
+            floor_mass=floor_mass,
+            brace_mass=brace_mass,
+            damping_ratio=damping_ratio,
+        )
+    )
+    named = named_records(records or STUDY_RECORDS, units, dt, channel)
+    motions = tuple(find_record(name, scaled=not raw) for name in named)
+    choice = compute(
+        chosen,
+        motions,
+        index=_index(index),
+        statistic=statistic,
+        distribution=distribution,
+        lower=lower,
+        upper=upper,
+        friction_coefficient=friction_coefficient,
+        normal_force_factor=normal_force_factor,
+        seed=seed,
+        workers=workers,
+        progress=True,
+    )
+    click.echo(text(choice))
+    if cube_path is not None:
+        from fdspec.store import save
+
+        save(choice, cube_path, overwrite=force)
+        click.echo(str(cube_path))
+    if page_path is not None:
+        from fdspec.report.page import page
+        from fdspec.store.replacing import replacing
+
+        with replacing(page_path, suffixes=PAGES) as part:
+            part.write_text(page(choice, chosen, motions), encoding="utf-8")
+        click.echo(str(page_path))
+
+
+def _index(given: str) -> str | dict[str, float]:
+    """Take a name, or weights written as acceleration=0.7,rpi=0.3."""
+    if "=" not in given:
+        return given
+    weights = {}
+    for part in given.split(","):
+        name, _, weight = part.partition("=")
+        try:
+            weights[name.strip()] = float(weight)
+        except ValueError:
+            raise click.UsageError(f"--index: the weight in {part!r} is no number.") from None
+    return weights
