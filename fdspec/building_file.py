@@ -110,8 +110,8 @@ def _mistakes(path: Path, text: str, error: ValidationError) -> list[str]:
     lines = key_lines(text)
     said = []
     for mistake in error.errors():
-        field = ".".join(str(part) for part in mistake["loc"][:1])
-        line = line_of(lines, mistake["loc"][:1])
-        where = f"{path}:{line}" if line else str(path)
-        said.append(f"{where}: {field + ': ' if field else ''}{mistake['msg'].removeprefix('Value error, ')}")
+        field = mistake["loc"][:1]
+        sentence = mistake["msg"].removeprefix("Value error, ")
+        where = f"{path}, line {line_of(lines, field)}: {field[0]}" if field else str(path)
+        said.append(f"{where}: {sentence}")
     return list(dict.fromkeys(said))

@@ -67,7 +67,7 @@ def recommendation(choice: xr.Dataset) -> list[tuple[str, str]]:
         (
             "Gain",
             (
-                f"{index_name(choice)} {index['chosen']:.3g}: {percent(1.0 - index['chosen'])} below the bare "
+                f"{index_name(choice)} {index['chosen']:.3g}: {_against(index['chosen'], 1.0)} the bare "
                 f"frame's 1, {_against(index['chosen'], index['braced'])} that of a brace that never slips, "
                 f"{index['braced']:.3g}"
             ),
@@ -193,13 +193,13 @@ def assumptions(choice: xr.Dataset) -> list[str]:
         f"Pretension is slip force / ({coefficient:.3g} x {factor:.3g}), friction and normal force factor.",
         *([f"The dampers have {distribution}."] if choice.sizes["storey"] > 1 else []),
         (
-            f"The ground moves in one direction; {choice.sizes['record']} records, as recorded or scaled, stand "
-            "for what may come, and each weighs the same."
+            f"The ground moves in one direction; {choice.sizes['record']} records, as recorded or scaled, "
+            "stand for what may come, and each weighs the same."
         ),
         f"{choice.sizes['trial']} pretensions were tried; each history is exact, none is interpolated.",
         (
-            "Bounds: the slip force as a whole times the lower and the upper property modification factor, as "
-            "ASCE/SEI 7 chapter 18 asks of damping systems; the factors are the user's."
+            "Bounds: the slip force as a whole times the lower and the upper property modification factor, "
+            "as ASCE/SEI 7 chapter 18 asks of damping systems; the factors are the user's."
         ),
         *stand_ins(choice),
     ]

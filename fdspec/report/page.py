@@ -37,7 +37,8 @@ h1 { font-size: 1.5rem; line-height: 1.25; } h2 { font-size: 1.2rem; margin-top:
 dl { display: grid; grid-template-columns: 10rem 1fr; gap: .35rem 1rem; }
 dt { font-weight: 600; } dd { margin: 0; }
 .answer { font-size: 1.15rem; border-left: .4rem solid #0072b2; padding: .3rem 1rem; background: #f2f7fb; }
-figure { margin: 1rem 0; } img { max-width: 100%; height: auto; } figcaption { color: #444; }
+figure { margin: 1rem 0; } img { width: 100%; min-width: 36rem; max-width: 62rem; height: auto; }
+figcaption { color: #444; }
 .wide { overflow-x: auto; } .wide:focus { outline: 3px solid #0072b2; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 caption { text-align: left; color: #444; padding-bottom: .4rem; }
@@ -120,7 +121,8 @@ def page(choice: xr.Dataset, building: Building, motions: GroundMotion | Sequenc
         "</ul>",
         f"<footer><p>{escape(choice.attrs['history'])}</p>",
         f"<p>{escape(choice.attrs['references'])}</p>",
-        f"<p>Parameters: <code>{escape(choice.attrs['parameters'])}</code></p></footer>",
+        "<details><summary>All parameters</summary>",
+        f"<p><code>{escape(choice.attrs['parameters'])}</code></p></details></footer>",
     ]
     body = "\n".join(parts)
     return (
@@ -133,7 +135,8 @@ def page(choice: xr.Dataset, building: Building, motions: GroundMotion | Sequenc
 def _picture(figure: Figure, alternative: str, caption: str) -> str:
     data = base64.b64encode(encode(figure, "png")).decode("ascii")
     return (
-        f'<figure><img alt="{escape(alternative)}" src="data:image/png;base64,{data}">'
+        f'<figure><div class="wide" role="region" aria-label="{escape(caption)}" tabindex="0">'
+        f'<img alt="{escape(alternative)}" src="data:image/png;base64,{data}"></div>'
         f"<figcaption>{escape(caption)}</figcaption></figure>"
     )
 
