@@ -10,7 +10,8 @@ import logging
 import socket
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from concurrent.futures import CancelledError
+from contextlib import contextmanager, suppress
 from functools import cache
 from itertools import islice
 from typing import TYPE_CHECKING, Any, Final, TypeVar
@@ -72,11 +73,13 @@ def processes(count: int) -> Iterator[Client]:
             n_workers=count,
             threads_per_worker=1,
             processes=True,
-            dashboard_address=None,
+            dashboard_address=":0",  # 8787 may be taken
             silence_logs=logging.CRITICAL,
         ) as cluster,
         Client(cluster, set_as_default=False) as client,
     ):
+        # One that is killed is started again by its nanny; should that give up too, this makes another.
+        cluster.adapt(minimum=count, maximum=count)
         log.info("%d worker processes", count)
         yield client
 
@@ -162,7 +165,11 @@ def _round(
         for future in completed:
             index = index_of.pop(future)
             if future.status == "finished":
-                yield index, future.result()
+                try:
+                    result = future.result()
+                except (OSError, CancelledError):  # the scheduler went between the word and the result
+                    return
+                yield index, result
             elif future.status == "error":
                 error = future.exception()
                 if not isinstance(error, KilledWorker):
@@ -173,7 +180,8 @@ def _round(
             for following in islice(waiting, 1):
                 completed.add(send(following))
     finally:
-        client.cancel(list(index_of))
+        with suppress(OSError, CancelledError):
+            client.cancel(list(index_of))
 
 
 @contextmanager

@@ -21,6 +21,7 @@ COMMANDS = {
         "fdspec.cli.export:export",
         "Write a cube for other programs (netCDF, CSV) or as a page (HTML).",
     ),
+    "check": ("fdspec.cli.check:check_cube", "Verify a cube: schema, CF, checksums, statuses, energy."),
 }
 
 

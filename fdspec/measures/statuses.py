@@ -27,7 +27,7 @@ def status_counts(cube: xr.Dataset) -> dict[str, int]:
     """Count the histories of a cube by how they ended: ``{"ok": 41580}``."""
     require(cube, ("status",))
     counts: dict[str, int] = {}
-    meanings = _meanings(cube)
+    meanings = meanings_of(cube)
     for status in _by_record(cube):
         codes, numbers = np.unique(status.values, return_counts=True)
         for code, number in zip(codes.tolist(), numbers.tolist(), strict=True):
@@ -39,7 +39,7 @@ def status_counts(cube: xr.Dataset) -> dict[str, int]:
 def failed_cells(cube: xr.Dataset) -> Iterator[Cell]:
     """Give every history that did not end well, by its coordinates."""
     require(cube, ("status",))
-    meanings = _meanings(cube)
+    meanings = meanings_of(cube)
     for status in _by_record(cube):
         for index in np.argwhere(status.values != 0):
             cell = status[tuple(index)]
@@ -57,7 +57,8 @@ def _by_record(cube: xr.Dataset) -> Iterator[xr.DataArray]:
         yield status.isel(record=slice(record, record + 1)).load()
 
 
-def _meanings(cube: xr.Dataset) -> dict[int, str]:
+def meanings_of(cube: xr.Dataset) -> dict[int, str]:
+    """Return what each status code of a cube means."""
     about = cube["status"].attrs
     codes = np.atleast_1d(about["flag_values"]).tolist()
     return dict(zip(codes, str(about["flag_meanings"]).split(), strict=True))

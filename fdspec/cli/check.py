@@ -1,0 +1,40 @@
+"""`fdspec check`: is a cube on disk whole and right?"""
+
+from __future__ import annotations
+
+import click
+
+from fdspec.cli.table import grouped
+from fdspec.errors import FdspecError
+
+WORDS = {True: "ok", False: "FAILED", None: "-"}
+
+
+@click.command("check")
+@click.argument("cube")
+@click.option("--all", "everything", is_flag=True, help="List every history that did not end well.")
+def check_cube(cube: str, everything: bool) -> None:
+    """Verify a cube, a netCDF file or a Zarr store: schema, CF, records, checksums, statuses, energy.
+
+    Exit code 1 when something is wrong with it.
+    """
+    from fdspec.check import check
+    from fdspec.cli.summary import LISTED
+    from fdspec.measures.statuses import failed_cells
+    from fdspec.store import open as open_cube
+
+    failed = []
+    for finding in check(cube):
+        click.echo(f"{WORDS[finding.passed]:6s}  {finding.what:9s}  {finding.told}")
+        if finding.passed is False:
+            failed.append(finding.what)
+        if finding.what == "statuses" and not finding.passed:
+            with open_cube(cube, lazily=True) as opened:
+                number = 0
+                for number, cell in enumerate(failed_cells(opened), 1):
+                    if everything or number <= LISTED:
+                        click.echo(f"        {cell}")
+            if not everything and number > LISTED:
+                click.echo(f"        and {grouped(number - LISTED)} more; --all lists them")
+    if failed:
+        raise FdspecError(f"{cube}: {', '.join(failed)} failed")
