@@ -62,8 +62,8 @@ _AT += 4
 # The floor alone, and the brace alone.
 F_G, F_W2, F_DRIFT, F_SLOW, F_TAIL_U, F_TAIL_V, F_TAIL_Q = range(_AT, _AT + 7)
 _AT += 7
-B_G, B_W2, B_DRIFT, B_SLOW, B_OMEGA, B_GROUND = range(_AT, _AT + 6)
-_AT += 6
+B_G, B_W2, B_DRIFT, B_SLOW, B_OMEGA, B_GROUND, B_TAIL_E, B_TAIL_Q = range(_AT, _AT + 8)
+_AT += 8
 # Step maps, twelve rows each, and quadratic forms of the viscous work, ten rows each.
 S_MAP, F_MAP, B_MAP, S_LOSS, F_LOSS = _AT, _AT + 12, _AT + 24, _AT + 36, _AT + 46
 _AT += 56
@@ -152,6 +152,9 @@ def put_lane(p, lane, plan, shelf, forms, stride, certify):
     p[B_SLOW * WIDTH + lane] = brace.slowness if massive else 0.0
     p[B_OMEGA * WIDTH + lane] = math.sqrt(brace.w2) if massive else 0.0
     p[B_GROUND * WIDTH + lane] = 1.0 if massive else 0.0
+    phi = brace.rate * plan.step
+    p[B_TAIL_E * WIDTH + lane] = TAIL * phi * phi * phi * phi
+    p[B_TAIL_Q * WIDTH + lane] = TAIL * phi * phi * phi * phi * brace.rate
     p[S_DAMP * WIDTH + lane] = storey.floor_damping + storey.brace_damping
     p[F_DAMP * WIDTH + lane] = storey.floor_damping
     p[HELD * WIDTH + lane] = 0.0
@@ -293,14 +296,22 @@ def slip_lanes(p, h, ground, rate):
         swing = abs(v) + steep * at(p, F_DRIFT, lane) + abs(a0) * at(p, F_SLOW, lane)
 
         drift = -b1 * at(p, B_DRIFT, lane)
+        g_b = at(p, B_G, lane)
+        w2_b = at(p, B_W2, lane)
+        c0 = b0 - g_b * e - w2_b * d
+        c1 = b0 - b1 * h - g_b * e1 - w2_b * d1
         ring_v = e - drift
-        ring_a = (b0 - at(p, B_G, lane) * e - at(p, B_W2, lane) * d) * at(p, B_SLOW, lane)
+        ring_a = c0 * at(p, B_SLOW, lane)
         ring = math.sqrt(ring_v * ring_v + ring_a * ring_a)
         tail_v = swing * at(p, F_TAIL_V, lane)
         inside = min(sign * (v + third * a0), sign * (v1 - third * a1)) - tail_v
         slowest = min(min(sign * v, sign * v1), inside) - (sign * drift + ring)
+        w0 = sign * (v - e)
+        w1 = sign * (v1 - e1)
+        inside = min(w0 + sign * third * (a0 - c0), w1 - sign * third * (a1 - c1))
+        inside -= tail_v + ring * at(p, B_TAIL_E, lane)
+        slowest = max(slowest, min(min(w0, w1), inside))
 
-        shear = at(p, PEAK_SHEAR, lane)
         top_a = max(at(p, PEAK_ACCELERATION, lane), abs(q1))
         top_u = max(at(p, PEAK_DISPLACEMENT, lane), abs(u1))
         top_v = max(at(p, PEAK_VELOCITY, lane), abs(v1))
@@ -309,8 +320,17 @@ def slip_lanes(p, h, ground, rate):
         crest_q = max(abs(q0 - third * (g * a0 + w2 * v)), abs(q1 + third * (g * a1 + w2 * v1)))
         crest_q += swing * at(p, F_TAIL_Q, lane)
         # Base shear is the inertia of both masses; the brace itself accelerates at most by ring times omega.
-        crest_s = at(p, FLOOR_MASS, lane) * max(max(abs(q0), abs(q1)), crest_q)
-        crest_s += at(p, BRACE_MASS, lane) * (ring * at(p, B_OMEGA, lane) + shake)
+        m = at(p, FLOOR_MASS, lane)
+        m_b = at(p, BRACE_MASS, lane)
+        s0 = m * q0 + m_b * (c0 + ground)
+        s1 = m * q1 + m_b * (c1 + ground_end)
+        rise0 = third * (m * (g * a0 + w2 * v) + m_b * (g_b * c0 + w2_b * e))
+        rise1 = third * (m * (g * a1 + w2 * v1) + m_b * (g_b * c1 + w2_b * e1))
+        inside = max(abs(s0 - rise0), abs(s1 + rise1))
+        inside += m * swing * at(p, F_TAIL_Q, lane) + m_b * ring * at(p, B_TAIL_Q, lane)
+        crest_s = m * max(max(abs(q0), abs(q1)), crest_q) + m_b * (ring * at(p, B_OMEGA, lane) + shake)
+        crest_s = min(crest_s, max(max(abs(s0), abs(s1)), inside))
+        shear = max(at(p, PEAK_SHEAR, lane), abs(s1))
         alert = at(p, MUST_WALK, lane)
         alert += 1.0 if at(p, KICK, lane) >= 0.0 else 0.0
         alert += 1.0 if slowest <= 0.0 else 0.0
