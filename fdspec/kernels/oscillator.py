@@ -177,6 +177,45 @@ def area(step, x, v, p0, p1):
     return step.ix * x + step.iv * v + step.i0 * p0 + step.i1 * p1
 
 
+@inner
+def ahead(x, v, g, w2, p0, p1, h, n):
+    """Displacement and velocity after h, and the integral of displacement, by a series of order n."""
+    gh = g * h
+    wh = w2 * h * h
+    start = v * h
+    second = 0.5 * (p0 * h * h - gh * start - wh * x)
+    third = (p1 * h * h * h - gh * 2.0 * second - wh * start) * SIXTH
+    end = x + start + second + third
+    slope = start + 2.0 * second + 3.0 * third
+    area = x + 0.5 * start + INVERSE[3] * second + 0.25 * third
+    older = second
+    old = third
+    for k in range(4, n + 1):
+        term = -(gh * INVERSE[k] * old + wh * (INVERSE[k] * INVERSE[k - 1]) * older)
+        end += term
+        slope += k * term
+        area += INVERSE[k + 1] * term
+        older = old
+        old = term
+    return end, slope / h, area * h
+
+
+@inlined
+def undamped_ahead(x, v, omega, p0, p1, h):
+    """The same for g = 0 in closed form; half angles leave no cancellation beyond that of p1's share."""
+    half = 0.5 * omega * h
+    sine = math.sin(half)
+    w2 = omega * omega
+    rise = 2.0 * sine * sine / w2
+    sine *= 2.0 * math.cos(half) / omega
+    late = (h - sine) / w2
+    pull = p0 - w2 * x
+    end = x + v * sine + pull * rise + p1 * late
+    slope = v + pull * sine + (p1 - w2 * v) * rise
+    area = x * h + v * rise + pull * late + p1 * (0.5 * h * h - rise) / w2
+    return end, slope, area
+
+
 @inlined
 def square_integral(loss, x, v, p0, p1):
     """Integral of velocity squared over a step."""

@@ -7,8 +7,27 @@ from __future__ import annotations
 
 from fdspec.jit import inlined, inner
 from fdspec.kernels.bounds import crest, floor_fourths, floor_peaks, ready, relative_acceleration, swing
-from fdspec.kernels.roots import clears, first_root, largest_magnitude
-from fdspec.kernels.types import Peaks
+from fdspec.kernels.crossing import (
+    ATTEMPTS,
+    CLEAR,
+    CROSSES,
+    NEAR,
+    SETTLED,
+    UNCLEAR,
+    Course,
+    guess,
+    leaves_zero,
+    nearby,
+    rates_of,
+    step_to_zero,
+    verdict,
+)
+from fdspec.kernels.oscillator import ahead, undamped_ahead
+from fdspec.kernels.roots import first_root, largest_magnitude
+from fdspec.kernels.types import Motion, Peaks
+
+NOISE = 1e-9
+"""What the curvature at the start of a slip may be off by, relative to what it is made of: ample."""
 
 
 @inlined
@@ -23,21 +42,86 @@ def brace_fourths(plan, motion, b, force, h):
 
 
 @inlined
-def slip_is_quiet(plan, start, end, force, phase, h):
-    """Whether the sliding velocity surely keeps its sign on the piece."""
-    a0 = relative_acceleration(plan.floor, start.u, start.v, force.p0)
-    a1 = relative_acceleration(plan.floor, end.u, end.v, force.p0 + force.p1 * h)
-    b0 = relative_acceleration(plan.brace, start.d, start.e, force.b0)
-    b1 = relative_acceleration(plan.brace, end.d, end.e, force.b0 + force.b1 * h)
-    _, fourth_v = floor_fourths(plan.floor, start.v, a0, force.p1, h)
+def slip_verdict(plan, start, end, force, phase, kick, h):
+    """Whether sliding goes on over the piece, comes to zero once, or neither is sure.
+
+    Returned with the verdict: after how long it comes to zero, nearly (s).  ``kick`` as in `search_slip`.
+    """
+    f = plan.floor
+    b = plan.brace
+    a0 = relative_acceleration(f, start.u, start.v, force.p0)
+    a1 = relative_acceleration(f, end.u, end.v, force.p0 + force.p1 * h)
+    b0 = relative_acceleration(b, start.d, start.e, force.b0)
+    b1 = relative_acceleration(b, end.d, end.e, force.b0 + force.b1 * h)
+    j0 = force.p1 - f.g * a0 - f.w2 * start.v
+    k0 = force.b1 - b.g * b0 - b.w2 * start.e
+    _, fourth_v = floor_fourths(f, start.v, a0, force.p1, h)
     _, fourth_e = brace_fourths(plan, start, b0, force, h)
-    return clears(
+    fourth = fourth_v + fourth_e
+    if kick >= 0.0:
+        twist = b.g * k0 + b.w2 * b0 - f.g * j0 - f.w2 * a0
+        noise = NOISE * h * h * (abs(j0) + abs(k0))
+        leaves = leaves_zero(
+            h * kick, phase * h * h * (j0 - k0), phase * h * h * h * twist, fourth, noise
+        )
+        return CLEAR if leaves else UNCLEAR, 0.0
+    course = Course(
         phase * (start.v - start.e),
         phase * h * (a0 - b0),
+        phase * h * h * (j0 - k0),
         phase * (end.v - end.e),
         phase * h * (a1 - b1),
-        fourth_v + fourth_e,
+        phase * h * h * (force.p1 - f.g * a1 - f.w2 * end.v - (force.b1 - b.g * b1 - b.w2 * end.e)),
+        fourth,
     )
+    found = verdict(course)
+    return found, h * guess(course) if found == CROSSES else 0.0
+
+
+@inlined
+def slip_ahead(plan, start, force, t):
+    """Motion at the time t of a piece, and the integrals of both displacements until then.
+
+    For a brace with mass and without damping.
+    """
+    f = plan.floor
+    u, v, swept = ahead(start.u, start.v, f.g, f.w2, force.p0, force.p1, t, int(plan.floor_order))
+    d, e, swung = undamped_ahead(start.d, start.e, plan.brace.rate, force.b0, force.b1, t)
+    return Motion(u, v, d, e), swept, swung
+
+
+@inner
+def locate_stop(plan, start, force, phase, t, h):
+    """Time at which sliding comes to zero, with what `slip_ahead` gives there.
+
+    It does so once on the piece, near t.  A negative time says that it was not found.
+    """
+    f = plan.floor
+    b = plan.brace
+    rate = max(f.rate, b.rate)
+    low = 0.0
+    high = h
+    for _ in range(ATTEMPTS):
+        motion, swept, swung = slip_ahead(plan, start, force, t)
+        r = rates_of(motion.u, motion.v, f.g, f.w2, force.p0 + force.p1 * t, force.p1)
+        q = rates_of(motion.d, motion.e, 0.0, b.w2, force.b0 + force.b1 * t, force.b1)
+        slide = phase * (r.v - q.v)
+        later, last = step_to_zero(
+            slide, phase * (r.a - q.a), phase * (r.j - q.j), phase * (r.s - q.s), phase * (r.c - q.c)
+        )
+        if slide > 0.0:
+            low = t
+        else:
+            high = t
+        if not low <= t + later <= high:
+            t = 0.5 * (low + high)
+            continue
+        if rate * abs(later) <= NEAR and rate * last <= SETTLED:
+            u, v, more = nearby(r, later)
+            d, e, swing_more = nearby(q, later)
+            return t + later, Motion(u, v, d, e), swept + more, swung + swing_more
+        t += later
+    return -1.0, start, 0.0, 0.0
 
 
 @inner

@@ -7,8 +7,22 @@ from __future__ import annotations
 
 from fdspec.jit import inlined, inner
 from fdspec.kernels.bounds import floor_fourths, floor_peaks, relative_acceleration
+from fdspec.kernels.crossing import (
+    ATTEMPTS,
+    CROSSES,
+    NEAR,
+    SETTLED,
+    UNCLEAR,
+    Course,
+    guess,
+    nearby,
+    rates_of,
+    step_to_zero,
+    verdict,
+)
+from fdspec.kernels.oscillator import ahead
 from fdspec.kernels.roots import NO_ROOT, clears, first_root
-from fdspec.kernels.types import STICK
+from fdspec.kernels.types import STICK, Motion
 
 
 @inlined
@@ -18,20 +32,79 @@ def held_force(plan, u, v, offset):
 
 
 @inlined
-def stick_is_quiet(plan, start, end, force, offset, h):
-    """Whether the reaction surely stays within the slip force on the piece."""
+def stick_verdict(plan, start, end, force, offset, h):
+    """Whether the reaction stays within the slip force on the piece, reaches it once, or neither is sure.
+
+    Returned with the verdict: the side on which it is reached, and after how long, nearly (s).
+    """
+    b = plan.stick
     limit = plan.storey.slip_force
     r0 = held_force(plan, start.u, start.v, offset)
     r1 = held_force(plan, end.u, end.v, offset)
-    a0 = relative_acceleration(plan.stick, start.u, start.v, force.p0)
-    a1 = relative_acceleration(plan.stick, end.u, end.v, force.p0 + force.p1 * h)
+    a0 = relative_acceleration(b, start.u, start.v, force.p0)
+    a1 = relative_acceleration(b, end.u, end.v, force.p0 + force.p1 * h)
     rise0 = h * (plan.hold_u * start.v + plan.hold_v * a0)
     rise1 = h * (plan.hold_u * end.v + plan.hold_v * a1)
-    fourth_u, fourth_v = floor_fourths(plan.stick, start.v, a0, force.p1, h)
+    fourth_u, fourth_v = floor_fourths(b, start.v, a0, force.p1, h)
     fourth = abs(plan.hold_u) * fourth_u + abs(plan.hold_v) * fourth_v
-    return clears(limit - r0, -rise0, limit - r1, -rise1, fourth) and clears(
-        limit + r0, rise0, limit + r1, rise1, fourth
+    side = 1 if r1 > 0.0 else -1
+    if not clears(limit + side * r0, side * rise0, limit + side * r1, side * rise1, fourth):
+        return UNCLEAR, side, 0.0
+    j0 = force.p1 - b.g * a0 - b.w2 * start.v
+    j1 = force.p1 - b.g * a1 - b.w2 * end.v
+    course = Course(
+        limit - side * r0,
+        -side * rise0,
+        -side * h * h * (plan.hold_u * a0 + plan.hold_v * j0),
+        limit - side * r1,
+        -side * rise1,
+        -side * h * h * (plan.hold_u * a1 + plan.hold_v * j1),
+        fourth,
     )
+    found = verdict(course)
+    return found, side, h * guess(course) if found == CROSSES else 0.0
+
+
+@inlined
+def stick_ahead(plan, start, force, offset, t):
+    """Motion at the time t of a piece, and the integral of displacement until then."""
+    b = plan.stick
+    u, v, swept = ahead(start.u, start.v, b.g, b.w2, force.p0, force.p1, t, int(plan.stick_order))
+    return Motion(u, v, u - offset, v), swept
+
+
+@inner
+def locate_slip(plan, start, force, offset, side, t, h):
+    """Time at which the reaction reaches the slip force on this side, with what `stick_ahead` gives there.
+
+    It does so once on the piece, near t.  A negative time says that it was not found.
+    """
+    b = plan.stick
+    low = 0.0
+    high = h
+    for _ in range(ATTEMPTS):
+        motion, swept = stick_ahead(plan, start, force, offset, t)
+        r = rates_of(motion.u, motion.v, b.g, b.w2, force.p0 + force.p1 * t, force.p1)
+        gap = plan.storey.slip_force - side * held_force(plan, r.x, r.v, offset)
+        later, last = step_to_zero(
+            gap,
+            -side * (plan.hold_u * r.v + plan.hold_v * r.a),
+            -side * (plan.hold_u * r.a + plan.hold_v * r.j),
+            -side * (plan.hold_u * r.j + plan.hold_v * r.s),
+            -side * (plan.hold_u * r.s + plan.hold_v * r.c),
+        )
+        if gap > 0.0:
+            low = t
+        else:
+            high = t
+        if not low <= t + later <= high:
+            t = 0.5 * (low + high)
+            continue
+        if b.rate * abs(later) <= NEAR and b.rate * last <= SETTLED:
+            u, v, more = nearby(r, later)
+            return t + later, Motion(u, v, u - offset, v), swept + more
+        t += later
+    return -1.0, start, 0.0
 
 
 @inner

@@ -12,6 +12,7 @@ import math
 
 from fdspec.jit import inlined, inner
 from fdspec.kernels.bounds import forcing
+from fdspec.kernels.crossing import CROSSES, UNCLEAR
 from fdspec.kernels.energy import (
     BRACE_FORM,
     FLOOR_FORM,
@@ -23,9 +24,24 @@ from fdspec.kernels.energy import (
 )
 from fdspec.kernels.friction import GOES_ON, phase_after_stop, reaction, sliding_kick
 from fdspec.kernels.oscillator import advance, area, expand, square_integral
+from fdspec.kernels.quadrature import series_square
 from fdspec.kernels.roots import value_slope
-from fdspec.kernels.slip import base_shear, search_slip, slip_is_quiet, slip_peaks
-from fdspec.kernels.stick import held_force, search_stick, stick_is_quiet, stick_peaks
+from fdspec.kernels.slip import (
+    base_shear,
+    locate_stop,
+    search_slip,
+    slip_ahead,
+    slip_peaks,
+    slip_verdict,
+)
+from fdspec.kernels.stick import (
+    held_force,
+    locate_slip,
+    search_stick,
+    stick_ahead,
+    stick_peaks,
+    stick_verdict,
+)
 from fdspec.kernels.types import (
     ANCHOR,
     EVENTS,
@@ -177,6 +193,20 @@ def whole_piece_work(plan, forms, phase, motion, end, force, acceleration, rate,
 
 
 @inner
+def part_loss(plan, phase, floor, motion, force, h):
+    """Viscous work (J) on a part of a piece; ``floor`` is room for a series."""
+    b = plan.stick
+    order = int(plan.stick_order)
+    damping = plan.storey.floor_damping + plan.storey.brace_damping
+    if phase != STICK:
+        b = plan.floor
+        order = int(plan.floor_order)
+        damping = plan.storey.floor_damping
+    expand(floor, order, motion.u, motion.v, b.g, b.w2, force.p0, force.p1, h)
+    return damping * series_square(floor, order, h, 1.0) if h > 0.0 else 0.0
+
+
+@inner
 def write_trace(plan, floor, brace, n, phase, offset, anchor, travel, so_far, acceleration, rate, h, x, row):
     """Fill one row (see TRACES) at the fraction x of an expanded piece of length h."""
     storey = plan.storey
@@ -239,6 +269,7 @@ def walk(
     free = limit == 0.0
     tracing = traces.shape[0] > 0
     loose = storey.brace_mass == 0.0 and storey.brace_damping == 0.0
+    swift = storey.brace_mass > 0.0 and plan.brace.w2 > 0.0 and plan.brace.g == 0.0
 
     motion = Motion(s[U], s[V], s[D], s[E])
     offset = s[OFFSET]
@@ -257,92 +288,113 @@ def walk(
         acceleration = a0 + rate * tau
         force = forcing(plan, phase, offset, acceleration, rate)
 
-        if whole and not tracing and touching == STICK and kick < 0.0:
+        found = UNCLEAR
+        sign = phase
+        when = 0.0
+        swept = 0.0
+        swung = 0.0
+        end = motion
+        if not tracing and touching == STICK:
             if phase == STICK:
-                h = plan.step
-                u, v = advance(plan.stick_map, motion.u, motion.v, force.p0, force.p1)
-                end = Motion(u, v, u - offset, v)
-                quiet = stick_is_quiet(plan, motion, end, force, offset, h)
-            else:
-                h = plan.slip_step
-                u, v = advance(plan.floor_map, motion.u, motion.v, force.p0, force.p1)
-                d, e = advance(plan.brace_map, motion.d, motion.e, force.b0, force.b1)
-                end = Motion(u, v, d, e)
-                quiet = slip_is_quiet(plan, motion, end, force, phase, h)
-            if quiet:
-                if phase == STICK:
-                    peaks = stick_peaks(plan, floor, search, order, 0.0, motion, end, force, offset, h, peaks)
+                if whole:
+                    u, v = advance(plan.stick_map, motion.u, motion.v, force.p0, force.p1)
+                    end = Motion(u, v, u - offset, v)
                 else:
-                    peaks = slip_peaks(
-                        plan, floor, brace, search, order, 0.0, motion, end, force, phase, h, peaks
-                    )
-                if energy:
+                    end, swept = stick_ahead(plan, motion, force, offset, h)
+                found, sign, when = stick_verdict(plan, motion, end, force, offset, h)
+                if found == CROSSES:
+                    when, end, swept = locate_slip(plan, motion, force, offset, sign, when, h)
+            elif whole or swift:
+                if whole:
+                    u, v = advance(plan.floor_map, motion.u, motion.v, force.p0, force.p1)
+                    d, e = advance(plan.brace_map, motion.d, motion.e, force.b0, force.b1)
+                    end = Motion(u, v, d, e)
+                else:
+                    end, swept, swung = slip_ahead(plan, motion, force, h)
+                found, when = slip_verdict(plan, motion, end, force, phase, kick, h)
+                if found == CROSSES and swift:
+                    when, end, swept, swung = locate_stop(plan, motion, force, phase, when, h)
+                elif found == CROSSES:
+                    found = UNCLEAR
+            if when < 0.0:
+                found = UNCLEAR
+
+        happens = found == CROSSES
+        share = 0.0
+        if found != UNCLEAR:
+            if energy:
+                if whole and not happens:
                     done, lost = whole_piece_work(
                         plan, forms, phase, motion, end, force, acceleration, rate, h, certify
                     )
-                    s[INPUT] += done
-                    s[VISCOUS] += lost
-                motion = end
-                part += 1
-                tau = target
-                continue
-
-        if phase == STICK:
-            b = plan.stick
-            expand(floor, order, motion.u, motion.v, b.g, b.w2, force.p0, force.p1, h)
-            x, sign = search_stick(plan, floor, search, order, h, offset, touching)
+                else:
+                    h = when if happens else h
+                    done = input_work(plan, phase, motion, end, swept, swung, acceleration, rate, h)
+                    lost = part_loss(plan, phase, floor, motion, force, h) if certify else 0.0
+                s[INPUT] += done
+                s[VISCOUS] += lost
+            if happens:
+                h = when
         else:
-            b = plan.floor
-            expand(floor, order, motion.u, motion.v, b.g, b.w2, force.p0, force.p1, h)
-            b = plan.brace
-            expand(brace, order, motion.d, motion.e, b.g, b.w2, force.b0, force.b1, h)
-            x = search_slip(floor, brace, search, order, h, phase, kick)
-            sign = phase
-        happens = x <= 1.0
-        x = min(x, 1.0)
-        if tracing:
-            so_far = Energy(s[INPUT], s[VISCOUS], s[RELEASE])
-            walked = (tau + x * h if happens else target) + reach
-            while written < traces.shape[0] and written * dt_out - at <= walked:
-                y = min(max((written * dt_out - at - tau) / h, 0.0), x)
-                write_trace(
-                    plan,
-                    floor,
-                    brace,
-                    order,
-                    phase,
-                    offset,
-                    s[ANCHOR],
-                    s[TRAVEL],
-                    so_far,
-                    acceleration,
-                    rate,
-                    h,
-                    y,
-                    traces[written],
+            if phase == STICK:
+                b = plan.stick
+                expand(floor, order, motion.u, motion.v, b.g, b.w2, force.p0, force.p1, h)
+                x, sign = search_stick(plan, floor, search, order, h, offset, touching)
+            else:
+                b = plan.floor
+                expand(floor, order, motion.u, motion.v, b.g, b.w2, force.p0, force.p1, h)
+                b = plan.brace
+                expand(brace, order, motion.d, motion.e, b.g, b.w2, force.b0, force.b1, h)
+                x = search_slip(floor, brace, search, order, h, phase, kick)
+                sign = phase
+            happens = x <= 1.0
+            share = min(x, 1.0)
+            if tracing:
+                so_far = Energy(s[INPUT], s[VISCOUS], s[RELEASE])
+                walked = (tau + share * h if happens else target) + reach
+                while written < traces.shape[0] and written * dt_out - at <= walked:
+                    y = min(max((written * dt_out - at - tau) / h, 0.0), share)
+                    write_trace(
+                        plan,
+                        floor,
+                        brace,
+                        order,
+                        phase,
+                        offset,
+                        s[ANCHOR],
+                        s[TRAVEL],
+                        so_far,
+                        acceleration,
+                        rate,
+                        h,
+                        y,
+                        traces[written],
+                    )
+                    written += 1
+            if energy:
+                done, lost = series_work(
+                    plan, phase, floor, brace, order, acceleration, rate, h, share, certify
                 )
-                written += 1
-        if energy:
-            done, lost = series_work(plan, phase, floor, brace, order, acceleration, rate, h, x, certify)
-            s[INPUT] += done
-            s[VISCOUS] += lost
-        if x > 0.0:
-            u, rise = value_slope(floor, 0, order, x)
+                s[INPUT] += done
+                s[VISCOUS] += lost
+            u, rise = value_slope(floor, 0, order, share)
             v = rise / h
             d = u - offset
             e = v
             if phase != STICK:
-                d, rise = value_slope(brace, 0, order, x)
+                d, rise = value_slope(brace, 0, order, share)
                 e = rise / h
-            h *= x
             end = Motion(u, v, d, e)
+            h *= share
+
+        if h > 0.0:
             if phase == STICK:
-                peaks = stick_peaks(plan, floor, search, order, x, motion, end, force, offset, h, peaks)
+                peaks = stick_peaks(plan, floor, search, order, share, motion, end, force, offset, h, peaks)
             else:
-                peaks = slip_peaks(plan, floor, brace, search, order, x, motion, end, force, phase, h, peaks)
+                peaks = slip_peaks(
+                    plan, floor, brace, search, order, share, motion, end, force, phase, h, peaks
+                )
             motion = end
-        else:
-            h = 0.0
         touching = STICK
         kick = NO_KICK
         if not happens:

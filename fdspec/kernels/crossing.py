@@ -1,0 +1,124 @@
+"""A quantity's first zero on a piece, from its values and derivatives at both ends.
+
+Most pieces need no series: bounds clear them, or its curvature keeps one sign and values at the ends
+tell that the quantity crosses zero once.  Then Newton's method on the cubic through both ends lands
+next to the crossing, and the motion's own derivatives there lead to it.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from fdspec.jit import inlined, inner
+from fdspec.kernels.roots import TAIL, clears
+
+CLEAR, CROSSES, UNCLEAR = 0, 1, 2
+"""Verdicts: stays positive; crosses zero just once; needs a search."""
+
+NEAR = 4e-3
+"""Phase (rad) within which five terms of a series are complete to rounding."""
+
+SETTLED = 1e-9
+"""A Newton step this short (rad) leaves an error of its square."""
+
+ATTEMPTS = 6
+"""Places from which the crossing is looked for before the search takes over."""
+
+
+class Course(NamedTuple):
+    """A quantity on a piece of length h: its value, slope times h, curvature times h^2 at both ends."""
+
+    start: float
+    start_rise: float
+    start_bend: float
+    end: float
+    end_rise: float
+    end_bend: float
+    fourth: float
+    """Bound on h^4 times its fourth derivative."""
+
+
+class Rates(NamedTuple):
+    """Derivatives of displacement by time at one instant: displacement itself first."""
+
+    x: float
+    v: float
+    a: float
+    j: float
+    s: float
+    c: float
+
+
+@inlined
+def verdict(course):
+    """Whether the quantity stays positive on the piece, crosses zero once, or neither is sure."""
+    if not course.start > 0.0:
+        return UNCLEAR
+    if clears(course.start, course.start_rise, course.end, course.end_rise, course.fourth):
+        return CLEAR
+    margin = course.fourth / 8.0
+    if max(course.start_bend, course.end_bend) + margin < 0.0:
+        return CLEAR if course.end > 0.0 else CROSSES
+    if min(course.start_bend, course.end_bend) - margin > 0.0:
+        if course.end <= 0.0:
+            return CROSSES
+        if course.start_rise >= 0.0 or course.end_rise <= 0.0:
+            return CLEAR
+    return UNCLEAR
+
+
+@inlined
+def leaves_zero(rise, bend, twist, fourth, noise):
+    """Whether a quantity that is zero at the start surely is positive from there on.
+
+    rise (at least 0), bend, twist: its first three derivatives there times h, h^2, h^3; noise: what
+    bend may be off by.
+    """
+    rest = min(0.0, twist) / 6.0 - fourth / 24.0
+    return 0.5 * (bend - noise) + rest > 0.0 or rise + 0.5 * min(0.0, bend - noise) + rest > 0.0
+
+
+@inner
+def guess(course):
+    """Fraction of the piece at which the cubic through both ends crosses zero, nearly."""
+    drop = course.end - course.start
+    square = 3.0 * drop - 2.0 * course.start_rise - course.end_rise
+    cube = course.start_rise + course.end_rise - 2.0 * drop
+    x = course.start / -drop
+    for _ in range(3):
+        height = course.start + x * (course.start_rise + x * (square + x * cube))
+        slope = course.start_rise + x * (2.0 * square + 3.0 * x * cube)
+        step = x - height / slope
+        if not 0.0 <= step <= 1.0:
+            break
+        x = step
+    return x
+
+
+@inlined
+def rates_of(x, v, g, w2, p, p1):
+    """Derivatives of an oscillator under force over mass p, which grows by p1."""
+    a = p - g * v - w2 * x
+    j = p1 - g * a - w2 * v
+    s = -g * j - w2 * a
+    return Rates(x, v, a, j, s, -g * s - w2 * j)
+
+
+@inlined
+def nearby(r, t):
+    """Displacement and velocity a short time later, and the integral of displacement until then."""
+    x = r.x + t * (r.v + t * (r.a / 2.0 + t * (r.j / 6.0 + t * (r.s / 24.0 + t * (r.c / 120.0)))))
+    v = r.v + t * (r.a + t * (r.j / 2.0 + t * (r.s / 6.0 + t * (r.c / 24.0))))
+    return x, v, t * (r.x + t * (r.v / 2.0 + t * (r.a / 6.0 + t * (r.j / 24.0 + t * (r.s / 120.0)))))
+
+
+@inlined
+def step_to_zero(y, y1, y2, y3, y4):
+    """Time to the zero near by, from a value and its derivatives; and Newton's last step."""
+    t = -y / y1
+    step = 0.0
+    for _ in range(3):
+        height = y + t * (y1 + t * (y2 / 2.0 + t * (y3 / 6.0 + t * (y4 / 24.0))))
+        step = height / (y1 + t * (y2 + t * (y3 / 2.0 + t * (y4 / 6.0))))
+        t -= step
+    return t, abs(step)
