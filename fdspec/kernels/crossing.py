@@ -36,6 +36,8 @@ class Course(NamedTuple):
     end_bend: float
     fourth: float
     """Bound on h^4 times its fourth derivative."""
+    fifth: float
+    """Bound on h^5 times its fifth."""
 
 
 class Rates(NamedTuple):
@@ -64,6 +66,10 @@ def verdict(course):
             return CROSSES
         if course.start_rise >= 0.0 or course.end_rise <= 0.0:
             return CLEAR
+    if course.end <= 0.0 and clears(
+        -course.start_rise, -course.start_bend, -course.end_rise, -course.end_bend, course.fifth
+    ):
+        return CROSSES
     return UNCLEAR
 
 

@@ -73,6 +73,7 @@ def slip_verdict(plan, start, end, force, phase, kick, h):
         phase * h * (a1 - b1),
         phase * h * h * (force.p1 - f.g * a1 - f.w2 * end.v - (force.b1 - b.g * b1 - b.w2 * end.e)),
         fourth,
+        fourth * max(f.rate, b.rate) * h,
     )
     found = verdict(course)
     return found, h * guess(course) if found == CROSSES else 0.0

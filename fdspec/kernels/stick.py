@@ -60,6 +60,7 @@ def stick_verdict(plan, start, end, force, offset, h):
         -side * rise1,
         -side * h * h * (plan.hold_u * a1 + plan.hold_v * j1),
         fourth,
+        fourth * b.rate * h,
     )
     found = verdict(course)
     return found, side, h * guess(course) if found == CROSSES else 0.0
