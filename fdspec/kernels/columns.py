@@ -14,13 +14,12 @@ from fdspec.kernels.crests import N_CREST, QUANTITIES, keep_crests, settle_crest
 from fdspec.kernels.energy import put_losses
 from fdspec.kernels.oscillator import TERMS, step_map
 from fdspec.kernels.packed import (
-    ALERT,
-    CREST,
     HELD,
     N_ROWS,
     WIDTH,
     accept_lanes,
-    any_alert,
+    alerted,
+    is_calm,
     loss_lanes,
     put_lane,
     put_state,
@@ -108,17 +107,18 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, energy, certify, results,
                 work_lanes(p, step, start, rate)
             if certify:
                 loss_lanes(p, start, rate)
-            if not any_alert(p):
+            to_walk, to_keep = alerted(p)
+            if to_walk | to_keep == 0:
                 accept_lanes(p, energy, certify)
                 continue
             for lane in range(count):
-                if p[ALERT * WIDTH + lane] > 0.0:
+                if to_walk >> lane & 1:
                     take_state(p, lane, states[lane])
-                elif p[CREST * WIDTH + lane] > 0.0:
+                elif to_keep >> lane & 1:
                     keep_crests(p, lane, take_plan(shelf, lane), crests, start, rate, floor, search)
             accept_lanes(p, energy, certify)
             for lane in range(count):
-                if p[ALERT * WIDTH + lane] > 0.0:
+                if to_walk >> lane & 1:
                     s = states[lane]
                     before = s[PHASE] != STICK
                     walk(
@@ -130,6 +130,7 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, energy, certify, results,
                         rate,
                         energy,
                         certify,
+                        is_calm(p, lane, s),
                         floor,
                         brace,
                         search,

@@ -91,7 +91,7 @@ def guess(course):
     square = 3.0 * drop - 2.0 * course.start_rise - course.end_rise
     cube = course.start_rise + course.end_rise - 2.0 * drop
     x = course.start / -drop
-    for _ in range(3):
+    for _ in range(2):
         height = course.start + x * (course.start_rise + x * (square + x * cube))
         slope = course.start_rise + x * (2.0 * square + 3.0 * x * cube)
         step = x - height / slope
@@ -123,7 +123,7 @@ def step_to_zero(y, y1, y2, y3, y4):
     """Time to the zero near by, from a value and its derivatives; and Newton's last step."""
     t = -y / y1
     step = 0.0
-    for _ in range(3):
+    for _ in range(2):
         height = y + t * (y1 + t * (y2 / 2.0 + t * (y3 / 6.0 + t * (y4 / 24.0))))
         step = height / (y1 + t * (y2 + t * (y3 / 2.0 + t * (y4 / 6.0))))
         t -= step

@@ -49,8 +49,8 @@ TAIL = 1.0 / 288.0
 _AT = N_STATE
 END_U, END_V, END_D, END_E, END_A, END_X, END_W, END_S, END_INPUT, END_VISCOUS = range(_AT, _AT + 10)
 _AT += 10
-ALERT, CREST, CREST_U, CREST_V, CREST_Q, HELD = range(_AT, _AT + 6)
-_AT += 6
+ALERT, CREST, CREST_U, CREST_V, CREST_Q, CREST_S, HELD = range(_AT, _AT + 7)
+_AT += 7
 # Constants of the storey.
 LIMIT, PUSH_FLOOR, PUSH_BRACE, LIFT, MASS, FLOOR_MASS, BRACE_MASS, LIGHT, MUST_WALK = range(_AT, _AT + 9)
 _AT += 9
@@ -261,6 +261,7 @@ def stick_lanes(p, h, ground, rate):
         p[CREST_U * WIDTH + lane] = crest_u
         p[CREST_V * WIDTH + lane] = crest_v
         p[CREST_Q * WIDTH + lane] = crest_q
+        p[CREST_S * WIDTH + lane] = at(p, MASS, lane) * crest_q
         p[HELD * WIDTH + lane] = max(at(p, HELD, lane), held)
 
 
@@ -351,6 +352,7 @@ def slip_lanes(p, h, ground, rate):
         p[CREST_U * WIDTH + lane] = crest_u if slips else at(p, CREST_U, lane)
         p[CREST_V * WIDTH + lane] = crest_v if slips else at(p, CREST_V, lane)
         p[CREST_Q * WIDTH + lane] = crest_q if slips else at(p, CREST_Q, lane)
+        p[CREST_S * WIDTH + lane] = crest_s if slips else at(p, CREST_S, lane)
 
 
 @inner
@@ -392,12 +394,25 @@ def loss_lanes(p, ground, rate):
 
 
 @inner
-def any_alert(p):
-    """Whether there is reason to look at single lanes in this step."""
-    found = 0  # an integer: a sum of floats would be taken one by one, in order
+def alerted(p):
+    """Lanes to look at in this step, a bit for each: to walk, and to keep for their peaks."""
+    to_walk = 0  # integers: sums of floats would be taken one by one, in order
+    to_keep = 0
     for lane in range(WIDTH):
-        found |= 1 if at(p, ALERT, lane) + at(p, CREST, lane) > 0.0 else 0
-    return found != 0
+        to_walk |= (1 << lane) if at(p, ALERT, lane) > 0.0 else 0
+        to_keep |= (1 << lane) if at(p, CREST, lane) > 0.0 else 0
+    return to_walk, to_keep
+
+
+@inlined
+def is_calm(p, lane, s):
+    """Whether a step passes none of the peaks in the state ``s``, unless the phase changes on it."""
+    return (
+        at(p, CREST_Q, lane) <= s[PEAK_ACCELERATION]
+        and at(p, CREST_U, lane) <= s[PEAK_DISPLACEMENT]
+        and at(p, CREST_V, lane) <= s[PEAK_VELOCITY]
+        and at(p, CREST_S, lane) <= s[PEAK_SHEAR]
+    )
 
 
 @inner

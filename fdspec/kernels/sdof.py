@@ -140,6 +140,7 @@ def history(
             rate,
             True,
             True,
+            False,
             floor,
             brace,
             search,

@@ -61,9 +61,7 @@ def slip_verdict(plan, start, end, force, phase, kick, h):
     if kick >= 0.0:
         twist = b.g * k0 + b.w2 * b0 - f.g * j0 - f.w2 * a0
         noise = NOISE * h * h * (abs(j0) + abs(k0))
-        leaves = leaves_zero(
-            h * kick, phase * h * h * (j0 - k0), phase * h * h * h * twist, fourth, noise
-        )
+        leaves = leaves_zero(h * kick, phase * h * h * (j0 - k0), phase * h * h * h * twist, fourth, noise)
         return CLEAR if leaves else UNCLEAR, 0.0
     course = Course(
         phase * (start.v - start.e),

@@ -245,6 +245,7 @@ def walk(
     rate,
     energy,
     certify,
+    calm,
     floor,
     brace,
     search,
@@ -259,7 +260,8 @@ def walk(
 
     forms: the losses of the plan, (N_FORMS,), read where certify.  at: time of the step's start, s;
     a0, rate: ground acceleration there (m/s2) and its rate (m/s3).  energy, certify: whether the work of
-    the ground, and of the viscous dampers, is kept.  floor, brace, search: room for series, (TERMS,).
+    the ground, and of the viscous dampers, is kept.  calm: whether no peak is passed before the phase changes.
+    floor, brace, search: room for series, (TERMS,).
     times, phases: changes of phase, as far as they have room.  traces (m, len(TRACES)): row k is
     written at k dt_out once that is not later than ``reach`` past what has been walked; with m = 0
     nothing is written, else every piece is expanded.
@@ -388,13 +390,16 @@ def walk(
             h *= share
 
         if h > 0.0:
-            if phase == STICK:
+            if calm:
+                pass
+            elif phase == STICK:
                 peaks = stick_peaks(plan, floor, search, order, share, motion, end, force, offset, h, peaks)
             else:
                 peaks = slip_peaks(
                     plan, floor, brace, search, order, share, motion, end, force, phase, h, peaks
                 )
             motion = end
+        calm = calm and not happens
         touching = STICK
         kick = NO_KICK
         if not happens:
