@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from fdspec.jit import inlined, inner
-from fdspec.kernels.roots import TAIL, clears
+from fdspec.kernels.roots import clears
 
 CLEAR, CROSSES, UNCLEAR = 0, 1, 2
 """Verdicts: stays positive; crosses zero just once; needs a search."""

@@ -1,9 +1,10 @@
 """One step of one history, piece by piece, from change of phase to change of phase.
 
 A step is a record step or an equal part of one, at most a radian of the sticking storey.  A piece of
-slip is at most a radian of the brace.  A whole piece is advanced by its closed form and let go when
-bounds show that nothing happens on it.  Any other piece is expanded in its Taylor series and
-searched; it ends where the phase changes.
+slip is at most a radian of the brace.  The motion at both ends of a piece mostly tells whether the
+phase changes on it, and leads to the instant (`fdspec.kernels.crossing`).  Where it leaves doubt, and where
+a course in time is asked for, the piece is expanded in its Taylor series and searched; it ends where
+the phase changes.
 """
 
 from __future__ import annotations
@@ -260,9 +261,9 @@ def walk(
 
     forms: the losses of the plan, (N_FORMS,), read where certify.  at: time of the step's start, s;
     a0, rate: ground acceleration there (m/s2) and its rate (m/s3).  energy, certify: whether the work of
-    the ground, and of the viscous dampers, is kept.  calm: whether no peak is passed before the phase changes.
-    floor, brace, search: room for series, (TERMS,).
-    times, phases: changes of phase, as far as they have room.  traces (m, len(TRACES)): row k is
+    the ground, and of the viscous dampers, is kept.  calm: whether it is known that no peak is passed
+    before the phase changes.  floor, brace, search: room for series, (TERMS,).  times, phases: changes of
+    phase, as far as they have room.  traces (m, len(TRACES)): row k is
     written at k dt_out once that is not later than ``reach`` past what has been walked; with m = 0
     nothing is written, else every piece is expanded.
     """
@@ -390,16 +391,14 @@ def walk(
             h *= share
 
         if h > 0.0:
-            if calm:
-                pass
-            elif phase == STICK:
+            calm = calm and not happens
+            if phase == STICK and not calm:
                 peaks = stick_peaks(plan, floor, search, order, share, motion, end, force, offset, h, peaks)
-            else:
+            elif not calm:
                 peaks = slip_peaks(
                     plan, floor, brace, search, order, share, motion, end, force, phase, h, peaks
                 )
             motion = end
-        calm = calm and not happens
         touching = STICK
         kick = NO_KICK
         if not happens:

@@ -10,12 +10,14 @@ from scipy.linalg import expm
 from fdspec.kernels.oscillator import (
     TERMS,
     advance,
+    ahead,
     area,
     expand,
     rate_bound,
     series_order,
     square_integral,
     step_map,
+    undamped_ahead,
 )
 from fdspec.kernels.quadrature import series_area, series_square, step_loss
 
@@ -51,6 +53,22 @@ def test_step(g: float, w2: float, h: float) -> None:
     assert x == pytest.approx(expected[0], rel=1e-11, abs=1e-14)
     assert v == pytest.approx(expected[1], rel=1e-11, abs=1e-13)
     assert area(step, *START) == pytest.approx(expected[2], rel=1e-11, abs=1e-14)
+
+
+@pytest.mark.parametrize(("g", "w2", "h"), OSCILLATORS)
+def test_ahead(g: float, w2: float, h: float) -> None:
+    x, v, p0, p1 = START
+    found = ahead(x, v, g, w2, p0, p1, h, series_order(rate_bound(g, w2) * h))
+    assert found == pytest.approx(exponential(g, w2, h)[:3], rel=1e-13, abs=1e-15)
+
+
+@pytest.mark.parametrize("phase", [1e-6, 0.01, 0.7, 2.0, 30.0])
+def test_ahead_without_damping(phase: float) -> None:
+    omega = 500.0
+    x, v, p0, p1 = START
+    found = undamped_ahead(x, v, omega, p0, p1, phase / omega)
+    expected = exponential(0.0, omega * omega, phase / omega)[:3]
+    assert found == pytest.approx(expected, rel=1e-12, abs=1e-16)
 
 
 @pytest.mark.parametrize(("g", "w2", "h"), OSCILLATORS)

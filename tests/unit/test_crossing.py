@@ -1,0 +1,110 @@
+"""The verdict on a quantity from both ends of a piece, against the quantity itself."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from fdspec.kernels.crossing import (
+    CLEAR,
+    CROSSES,
+    NEAR,
+    Course,
+    guess,
+    leaves_zero,
+    nearby,
+    rates_of,
+    step_to_zero,
+    verdict,
+)
+from fdspec.kernels.oscillator import advance, area, step_map
+
+AT = np.linspace(0.0, 1.0, 4001)
+
+phases = st.floats(0.01, 3.0)
+angles = st.floats(0.0, 2.0 * math.pi)
+levels = st.floats(-2.0, 2.0)
+
+
+def course(phase: float, angle: float, level: float, slope: float) -> Course:
+    """The quantity level + slope x + cos(angle + phase x)."""
+    far = angle + phase
+    return Course(
+        level + math.cos(angle),
+        slope - phase * math.sin(angle),
+        -phase * phase * math.cos(angle),
+        level + slope + math.cos(far),
+        slope - phase * math.sin(far),
+        -phase * phase * math.cos(far),
+        phase**4,
+        phase**5,
+    )
+
+
+@settings(max_examples=600, derandomize=True)
+@given(phases, angles, levels, st.floats(-3.0, 3.0))
+@example(1.0, math.pi - 0.5, 1.0 - 1e-9, 0.0)  # dips below zero between ends above it
+@example(1.0, math.pi - 0.5, 1.0 + 1e-9, 0.0)  # and stays above
+def test_verdict(phase: float, angle: float, level: float, slope: float) -> None:
+    found = verdict(course(phase, angle, level, slope))
+    values = level + slope * AT + np.cos(angle + phase * AT)
+    if found == CLEAR:
+        assert values.min() > -1e-15
+    if found == CROSSES:
+        below = values <= 0.0
+        first = int(np.argmax(below))
+        assert below[-1]
+        assert not below[0]
+        assert np.all(values[first:] <= 1e-12)
+
+
+@settings(max_examples=300, derandomize=True)
+@given(st.floats(0.01, 1.0), angles, levels, st.floats(-3.0, 3.0))
+def test_a_crossing_is_guessed_well(phase: float, angle: float, level: float, slope: float) -> None:
+    line = course(phase, angle, level, slope)
+    if verdict(line) != CROSSES or abs(line.end_rise) < 0.1 or abs(line.start_rise) < 0.1:
+        return
+    x = guess(line)
+    values = level + slope * AT + np.cos(angle + phase * AT)
+    assert x == pytest.approx(AT[int(np.argmax(values <= 0.0))], abs=0.05)
+
+
+@settings(max_examples=300, derandomize=True)
+@given(
+    st.sampled_from([0.0, 1e-9, 0.3, 1.0]),
+    st.floats(-3.0, 3.0),
+    st.floats(-3.0, 3.0),
+    st.floats(0.0, 5.0),
+)
+def test_leaving_zero(rise: float, bend: float, twist: float, fourth: float) -> None:
+    if leaves_zero(rise, bend, twist, fourth, 1e-9):
+        x = AT[1:]
+        lowest = rise * x + bend * x**2 / 2.0 + twist * x**3 / 6.0 - fourth * x**4 / 24.0
+        assert lowest.min() > 0.0
+
+
+def test_a_start_at_zero_that_turns_back_is_not_cleared() -> None:
+    assert not leaves_zero(0.0, -1.0, 5.0, 0.0, 0.0)
+    assert not leaves_zero(0.0, 0.0, 0.0, 0.0, 0.0)
+    assert not leaves_zero(0.1, -1.0, 0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(("g", "w2"), [(0.0, 2.5e5), (1.2, 158.0), (0.0, 0.0)])
+def test_nearby_motion_is_the_step_map(g: float, w2: float) -> None:
+    t = NEAR / max(math.sqrt(w2), 1.0)
+    x, v, p0, p1 = 0.02, -0.3, 1.7, -40.0
+    rates = rates_of(x, v, g, w2, p0, p1)
+    found = nearby(rates, t)
+    step = step_map(g, w2, t)
+    assert found[:2] == pytest.approx(advance(step, x, v, p0, p1), rel=1e-15)
+    assert found[2] == pytest.approx(area(step, x, v, p0, p1), rel=1e-15)
+
+
+def test_a_zero_near_by_is_stepped_to() -> None:
+    t, last = step_to_zero(1e-4, -1.0, 0.5, -2.0, 3.0)
+    assert last < 1e-9
+    assert 1e-4 - t + 0.25 * t**2 - t**3 / 3.0 + t**4 / 8.0 == pytest.approx(0.0, abs=1e-18)
