@@ -241,6 +241,7 @@ def strain_of_history(
                 rate,
                 False,
                 False,
+                True,
                 floor,
                 brace,
                 out,
