@@ -208,6 +208,7 @@ async function show(delay = 0) {
     const coming = about.served ? new Promise((done) => setTimeout(() => done(turn === asked && runHistories(shown)), delay)) : null;
     if (first) for (const step of curves) await step();
     if (first) await coming;
+    performance.mark("ready");
     for (const step of maps("surface")) {
       if (turn !== asked) return;
       await step();

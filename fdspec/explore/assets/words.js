@@ -22,16 +22,17 @@ function mapWords(s, k, index, numbers) {
   }
   if (low.length === 1) return `No history of ${about.records[k].name} ended well here.`;
   const at = ([v, f, t]) => `${written(v, index.unit)} at ${written(AXES.period[t], "s")} and ${written(AXES.pretension[f], "kN")}`;
-  const parts = [`From ${at(low)} to ${at(high)}.`, bestWords(s, k, index, numbers)];
+  const parts = [`From ${at(low)} to ${at(high)}.`];
+  if (!index.best) parts.push("This index has no best pretension.");
   if (missing) parts.push(`${missing} histories did not end well and are left out.`);
-  return parts.filter(Boolean).join(" ");
+  return parts.join(" ");
 }
 
 function bestWords(s, k, index, numbers) {
   if (!index.best) return "This index has no best pretension.";
   const place = gridBest(s, index, numbers, s.period), told = searchedAt(s, k, s.period);
   if (place === null) return "";
-  const of = `At ${written(AXES.period[s.period], "s")} the best of these pretensions is ${written(AXES.pretension[place], "kN")}: ` +
+  const of = `At ${written(AXES.period[s.period], "s")} the best of the cube's pretensions is ${written(AXES.pretension[place], "kN")}: ` +
     `${written(cell(numbers[index.name], s.ratio, place, s.period), index.unit)}.`;
   if (!told || !Number.isFinite(told.value)) return of;
   const end = Number.isFinite(told.end) ? `to ${written(told.end, "kN")}` : "without end";
