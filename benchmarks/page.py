@@ -24,7 +24,8 @@ FLAGS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader
 IMPORTS = "import numpy, xarray, netCDF4, numba, tornado.web, plotly.offline, fdspec.explore"
 
 MOVED = """async () => {
-    const slider = document.getElementById("ratio"), pictures = document.getElementById("pictures"), waits = [];
+    const slider = document.getElementById("ratio"), pictures = document.getElementById("pictures");
+    const waits = [];
     const pause = (ms) => new Promise((done) => setTimeout(done, ms));
     const marked = (name) => performance.getEntriesByName(name)[0];
     for (const value of [0, 1, 2, 4, 5, 6, 4, 2, 1, 0]) {
