@@ -53,9 +53,9 @@ _ = plot_brace_displacements(histories, title="displacement of the additional fr
 
 # %% [markdown]
 # The same in numbers. Whatever softens the change from stick to slip, be it creep in a band of velocity, a
-# rounded loop or a dashpot, changes what the brace does, and so does leaving out its mass; the two schemes that
-# keep stick and slip apart change nothing that one can see. The frame itself, twenty times as stiff as its
-# brace, hardly notices.
+# rounded loop or a dashpot, changes what the brace does, and so does leaving out its mass; the two schemes
+# that keep stick and slip apart change nothing that one can see. The frame itself, twenty times as stiff as
+# its brace, hardly notices.
 
 # %%
 exact = histories["exact"]
@@ -69,8 +69,8 @@ for name, history in histories.items():
 # %% [markdown]
 # ## Error against cost, over a grid
 #
-# Twelve frames over the study's ranges, the strong eight seconds of FSR1. The cost is the time of a history on
-# one core; the error is that of the peak absolute acceleration.
+# Twelve frames over the study's ranges, the strong eight seconds of FSR1. The cost is the time of a history
+# on one core; the error is that of the peak absolute acceleration.
 
 # %%
 record = fdspec.load_record("FSR1")
@@ -174,7 +174,6 @@ for dt in (1e-3, 1e-4, 1e-5, 1e-6):
 
 # %% [markdown]
 # A cell counts as unsolved where the published iteration does not settle. Peaks are hardly ever off by a
-# percent, even with long steps; what goes wrong is the count of the changes of phase, in half of the cells at a
-# millisecond, and it takes the study's microsecond to get them all. That is the study's own finding: the step
-# is short for the instants' sake, not for the motion's. `fdspec verify` puts the scheme to the test on any
-# machine.
+# percent, even with long steps; what goes wrong is the count of the changes of phase. That is the study's own
+# finding: its step is short for the instants' sake, not for the motion's. `fdspec verify` puts the scheme to
+# the test on any machine.
