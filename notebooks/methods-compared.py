@@ -42,7 +42,7 @@ for name, method in METHODS.items():
 # ## Figure 4, redone
 #
 # The displacement of the additional frame in the first validation problem (a stand-in for the record, see
-# [there](validation-single-storey.py)), by every method, each over the exact one.
+# the notebook of that problem), by every method, each over the exact one.
 
 # %%
 from fdspec.figures import plot_brace_displacements

@@ -28,7 +28,7 @@ class Bilinear(Method):
     """Replace damper and brace by one elasto-plastic spring over the storey, as general programs model them.
 
     The study's second category, its references [3, 23, 25 to 28]: SAP2000's plastic link, DRAIN's bilinear
-    spring.  With the storey's drift g, the spring's offset o and the brace's stiffness k_d
+    spring.  With the storey's drift g, the spring's offset o and the brace's stiffness k_d::
 
         R = k_d (g - o),   |R| <= F,   o' (R - F sgn o') = 0 .
 

@@ -29,12 +29,12 @@ class BoucWen(Method):
     """Replace damper and brace by one hysteretic spring over the storey that yields smoothly.
 
     Bouc (1967) and Wen (1976), the study's references [18] and [35].  With the storey's drift g, the brace's
-    stiffness k_d and friction F, z = R / F and gamma = 1 - beta:
+    stiffness k_d and friction F, z = R / F and gamma = 1 - beta::
 
         R' = k_d g' (1 - |z|^n (beta sgn(g' z) + gamma)) .
 
-    It is Wen's z' = A g' - beta |g'| |z|^(n-1) z - gamma g' |z|^n, scaled so that the first stiffness is the
-    brace's (A = 1) and the last force is friction (beta + gamma = 1).
+    It is Wen's ``z' = A g' - beta |g'| |z|^(n-1) z - gamma g' |z|^n``, scaled so that the first stiffness is
+    the brace's (A = 1) and the last force is friction (beta + gamma = 1).
 
     Parameters
     ----------

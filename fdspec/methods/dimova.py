@@ -23,7 +23,7 @@ class Dimova(Method):
     """Make friction linear in the sliding velocity within a band about zero.
 
     Dimova, Meskouris and Kraetzig (1995), the study's reference [22] and its Figure 4.  In place of (1), with
-    the sliding velocity w = u_f' - u_d' and the tolerance e,
+    the sliding velocity w = u_f' - u_d' and the tolerance e::
 
         R = F w / e   for |w| <= e,   F sgn w   beyond.
 

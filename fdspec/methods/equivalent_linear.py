@@ -33,7 +33,7 @@ class EquivalentLinear(Method):
 
     Jacobsen's equivalent viscous damping (1930), the study's reference [17].  A loop of amplitude X of an
     elasto-plastic spring (k_d, F) has the secant stiffness F / X and dissipates 4 F (X - F / k_d); a dashpot
-    dissipates pi c w X^2 in the same cycle.  So
+    dissipates pi c w X^2 in the same cycle.  So::
 
         k_eq = F / X,   c_eq = 4 F (X - F / k_d) / (pi w X^2)   for X > F / k_d,   else k_d and 0,
 

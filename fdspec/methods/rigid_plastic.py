@@ -21,7 +21,7 @@ class RigidPlastic(Method):
     """Replace damper and brace by friction between a floor and the one below: nothing gives before it slips.
 
     The study's "rigid-perfectly plastic idealization", its references [3, 25 to 28].  With the storey's
-    drift g
+    drift g::
 
         R = F sgn g'   while g' is not 0,   |R| <= F   while it is,
 

@@ -22,7 +22,7 @@ class StateSpace(Method):
     """Step by an exact state-space map, with friction chosen so that shear balances at each step's end.
 
     L. Y. Lu and others, the study's reference [24].  With z = [u, u'] of floors and braces the study's (19)
-    is z' = A z + E a_g + B R, and over a step
+    is z' = A z + E a_g + B R, and over a step::
 
         z+ = A_d z + E_0 a_g + E_1 a_g+ + B_d R+ .
 
