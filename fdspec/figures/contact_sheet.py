@@ -7,10 +7,10 @@ import math
 from collections.abc import Mapping
 from typing import Final
 
-from matplotlib.figure import Figure
 from matplotlib.image import imread
 
 from fdspec.errors import InvalidInput
+from fdspec.figures.page import Figure
 
 COLUMNS: Final = 4
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
-from matplotlib.figure import Figure
 
+from fdspec.figures.page import Figure
 from fdspec.figures.storeys import title_of
 
 if TYPE_CHECKING:

@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from fdspec.errors import InvalidInput
 from fdspec.figures.caption import add_caption
+from fdspec.figures.page import Figure
 from fdspec.units import G
 
 if TYPE_CHECKING:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from fdspec.errors import InvalidInput
+from fdspec.figures.page import Figure
 from fdspec.figures.storeys import (
     BANDS,
     BRACE,

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Final
 
-from matplotlib.figure import Figure
-
+from fdspec.figures.page import Figure
 from fdspec.figures.storeys import FLOOR, draw_limits, slip_of, title_of
 
 if TYPE_CHECKING:

@@ -6,9 +6,8 @@ import math
 import textwrap
 from typing import TYPE_CHECKING, Final
 
-from matplotlib.figure import Figure
-
 from fdspec.figures.acceleration import of_record
+from fdspec.figures.page import Figure
 from fdspec.figures.panels import at, draw_map, draw_scale
 
 if TYPE_CHECKING:

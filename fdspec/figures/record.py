@@ -6,9 +6,9 @@ import textwrap
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from fdspec.errors import InvalidInput
+from fdspec.figures.page import Figure
 from fdspec.intensity import arias_time, husid, intensity
 from fdspec.units import G
 

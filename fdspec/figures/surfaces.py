@@ -6,11 +6,11 @@ import math
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from fdspec.errors import InvalidInput
 from fdspec.figures.acceleration import Acceleration, of_record
 from fdspec.figures.caption import SIZE, height, wrapped
+from fdspec.figures.page import Figure
 from fdspec.figures.panels import BEST, at, draw_map, draw_scale, draw_surface
 
 if TYPE_CHECKING:

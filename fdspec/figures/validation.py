@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from fdspec.errors import InvalidInput
 from fdspec.figures.caption import add_caption
+from fdspec.figures.page import Figure
 from fdspec.figures.storeys import BRACE, FLOOR
 
 if TYPE_CHECKING:

@@ -14,6 +14,7 @@ from matplotlib.text import Text
 
 from fdspec.errors import InvalidInput
 from fdspec.figures import acceleration_caption, plot_acceleration, plot_acceleration_maps, plot_history
+from fdspec.figures.encoding import encode
 from fdspec.figures.panels import BEST, HEIGHT
 from fdspec.figures.storeys import phase_spans
 from fdspec.units import G
@@ -412,3 +413,8 @@ def test_figures_keep_no_state_of_pyplot() -> None:
     code = "import sys, fdspec.figures; print('matplotlib.pyplot' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
     assert done.stdout.strip() == "False"
+
+
+def test_a_notebook_shows_a_figure_without_pyplot(cube: xr.Dataset) -> None:
+    figure = plot_acceleration_maps(cube, "FSR1")
+    assert figure._repr_png_() == encode(figure, "png")
