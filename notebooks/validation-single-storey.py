@@ -13,7 +13,9 @@
 # %% [markdown]
 # # Validation: single-storey frame with K bracing
 #
-# The study's first validation problem (its Figure 4): a frame with an additional, K-braced frame inside,
+# **What of the study's first validation problem is known, what has to be assumed, and what comes out?**
+#
+# The problem (the study's Figure 4) is a frame with an additional, K-braced frame inside,
 # joined by a friction joint. It plots the displacement of the additional frame.
 #
 # - **printed**: frame 20 000 kg and 0.4 s; additional frame 27 kg and 0.0684 s; friction coefficient

@@ -135,6 +135,8 @@ def plot_grazing(
                     label="fixed step",
                 )
             axis.set_xlim(1e3 * (low - start), 1e3 * (high - start))
+            if axis is row[1]:
+                _frame(axis, of(one)[shown])
             axis.grid(visible=True, color="0.92", linewidth=0.5)
         row[0].set_ylabel(label)
     for axis in axes[0]:
@@ -149,6 +151,13 @@ def plot_grazing(
     _legend(figure, axes[0, 0], {phase for *_, phase in shown_spans})
     figure.suptitle(title_of(history, "A halt of the damper under", storey), fontsize="medium")
     return figure
+
+
+def _frame(axis: Axes, exact: FloatArray) -> None:
+    """Scale an axis by the exact values; a step may lie far off."""
+    low, high = float(exact.min()), float(exact.max())
+    room = 0.08 * (high - low) or 1.0
+    axis.set_ylim(low - room, high + room)
 
 
 def _legend(figure: Figure, axis: Axes, met: set[int]) -> None:

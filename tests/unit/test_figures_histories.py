@@ -142,6 +142,9 @@ def test_a_halt_is_drawn_around_and_at_its_own_scale(history: xr.Dataset) -> Non
         spans = [(patch.get_x(), patch.get_x() + patch.get_width()) for patch in axis.patches]
         assert spans == [pytest.approx((-200.0, 0.0)), pytest.approx((20.0, 200.0))]
     assert [line.get_ydata()[0] for line in left[1].lines if line.get_linestyle() == "--"] == [-50.0]
+    inside = (one["time"].values >= 0.26) & (one["time"].values <= 0.36)
+    most = np.abs((one["acceleration"].values / G)[inside]).max()
+    assert right[2].get_ylim()[1] < 1.2 * most
     assert right[0].get_title() == "the stick, 20000 µs"
     assert legend_of(figure) == ["exact", "fixed step", "slips backward"]
 
