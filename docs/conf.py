@@ -11,7 +11,14 @@ author = "fdspec contributors"
 copyright = "2026, fdspec contributors"
 version = release = fdspec.__version__
 
-extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.viewcode"]
+# Formulas are read without a net too: the last one brings MathJax along.
+extensions = [
+    "myst_nb",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+    "sphinx.ext.viewcode",
+    "sphinx-mathjax-offline",
+]
 exclude_patterns = ["_build", "conf.py", "jupyter_execute", "notebooks/README.md"]
 
 html_theme = "furo"

@@ -122,8 +122,8 @@ print(f"0.6 s, SR 4: {force / 1e3:.0f} kN, at most {choice.min().item():.2f} m/s
 # period = [0.3, 0.6, 0.9, 1.2, 1.5]
 # ```
 #
-# `fdspec sweep mine.toml -o mine.nc` makes the cube, `fdspec figures mine.nc` draws it. Such a file is checked as
-# a whole, and reads the very same motion:
+# `fdspec sweep mine.toml -o mine.nc` makes the cube, `fdspec figures mine.nc` draws it. Such a file is
+# checked as a whole, and reads the very same motion:
 
 # %%
 text = """
