@@ -11,9 +11,9 @@ __version__ = "0.1.0"
 
 if TYPE_CHECKING:
     from fdspec.building import Building
-    from fdspec.choice.choose import choose
     from fdspec.choice.distribution import optimise
     from fdspec.choice.pretension import best_pretension
+    from fdspec.choice.recommendation import choose
     from fdspec.damping import DampingMatrix, ModalDamping, RayleighDamping
     from fdspec.motion import GroundMotion
     from fdspec.records import load_record, read_record

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -91,6 +92,42 @@ def intensity(motion: GroundMotion, start: float = 0.05, end: float = 0.95) -> I
         significant_duration=arias_time(motion, end) - arias_time(motion, start),
         cav=_cav(motion),
     )
+
+
+LOWEST_FREQUENCY: Final = 0.25
+HIGHEST_FREQUENCY: Final = 20.0
+"""Hz; the band of the mean period."""
+
+
+def mean_period(motion: GroundMotion) -> float:
+    """Return the mean period of a motion, s: its periods, weighted by the squares of its Fourier amplitudes.
+
+    T_m = sum(C_i^2 / f_i) / sum(C_i^2) over 0.25 to 20 Hz; Rathje, Abrahamson and Bray (1998), J. Geotech.
+    Geoenviron. Eng. 124(2).
+
+    Parameters
+    ----------
+    motion : GroundMotion
+
+    Raises
+    ------
+    InvalidInput
+        When the motion has nothing in that band.
+
+    Examples
+    --------
+    >>> wave = np.sin(2.0 * np.pi * np.arange(0.0, 20.0, 0.01) / 0.4)
+    >>> round(mean_period(GroundMotion(wave, 0.01)), 3)
+    0.4
+    """
+    frequency = np.fft.rfftfreq(motion.n, motion.dt)
+    inside = (frequency >= LOWEST_FREQUENCY) & (frequency <= HIGHEST_FREQUENCY)
+    power = np.abs(np.fft.rfft(motion.acceleration)[inside]) ** 2
+    if not power.sum() > 0.0:
+        raise InvalidInput(
+            f"{motion.name or 'the motion'} has nothing between 0.25 and 20 Hz: no mean period"
+        )
+    return float((power / frequency[inside]).sum() / power.sum())
 
 
 def _cav(motion: GroundMotion) -> float:

@@ -29,6 +29,9 @@ FRAME_FINEST: Final = 2.0**-8
 
 BAND: Final = 0.05
 
+SPREAD: Final = 0.5
+"""Standard deviation of the logarithm of slip forces about a start in half of the first population."""
+
 
 def optimise(
     building: Building,
@@ -87,9 +90,9 @@ def optimise(
     -----
     A distribution of one number is scanned and refined as `fdspec.best_pretension` is.  A free one is
     searched by differential evolution (Storn and Price 1997, scipy's), a genetic approach like that of
-    Moreschi and Singh (2003) and of Asahina and others (2004), which the study names.  The best forces of
-    the other distributions are members of the first population and the best member is never lost, so a
-    free distribution is at least as good as they are.
+    Moreschi and of Asahina and others, which the study names.  The first population holds the best forces
+    of the other distributions, half of it is scattered about them, half over all forces below which a
+    damper slips at all; the best member is never lost, so a free distribution is at least as good as they.
     """
     if distribution not in DISTRIBUTIONS:
         raise InvalidInput(f"distribution must be one of {', '.join(DISTRIBUTIONS)}, got {distribution!r}")
@@ -196,22 +199,27 @@ def _evolved(
     braced = bench.braced_storeys
     top = bench.never_slips[braced]
     rng = np.random.default_rng(seed)
-    first = rng.uniform(0.0, 1.0, (max(members, 5, len(starts)), top.size))
-    first[: len(starts)] = np.minimum(starts[:, braced] / top, 1.0)
+    size = max(members, 5, len(starts))
+    shares = np.minimum(starts[:, braced] / top, 1.0)
+    first = rng.uniform(0.0, 1.0, (size, top.size))
+    about = np.arange(len(starts), max(size // 2, len(starts)))
+    spread = np.exp(SPREAD * rng.standard_normal((about.size, top.size)))
+    first[about] = np.cbrt(np.minimum(shares[about % len(starts)] * spread, 1.0))
+    first[: len(starts)] = np.cbrt(shares)
     course = []
     count = 0
 
-    def forces(shares: FloatArray) -> FloatArray:
-        full = np.zeros((shares.shape[0], bench.storeys))
-        full[:, braced] = shares * top
+    def forces(genes: FloatArray) -> FloatArray:
+        """Slip forces (c, N) of members (c, storeys with a brace): the cube spreads out what is weak."""
+        full = np.zeros((genes.shape[0], bench.storeys))
+        full[:, braced] = genes**3 * top
         return full
 
     def judged(columns: FloatArray) -> FloatArray:
         nonlocal count
-        shares = np.atleast_2d(columns.T)
-        count += shares.shape[0]
-        found = bench.judge(forces(shares))
-        # scipy keeps the population in units of its bounds and may be off by an ulp: the starts' values hold.
+        genes = np.atleast_2d(columns.T)
+        count += genes.shape[0]
+        found = bench.judge(forces(genes))
         return np.where(np.isfinite(found), found, np.finfo(float).max)
 
     def note(intermediate_result: Any) -> None:
@@ -232,7 +240,7 @@ def _evolved(
     )
     force, least = forces(found.x[np.newaxis])[0], float(found.fun)
     best = int(values.argmin())
-    if values[best] < least:
+    if values[best] <= least:  # a start came back changed by the rounding of its cube root, and no better
         force, least = starts[best], float(values[best])
     history = np.minimum.accumulate([float(values[best]), *course])
     history[-1] = least

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fdspec.errors import InvalidInput
-from fdspec.intensity import arias_time, displacement, husid, intensity, velocity
+from fdspec.intensity import arias_time, displacement, husid, intensity, mean_period, velocity
 from fdspec.motion import GroundMotion
 from fdspec.units import G
 
@@ -58,3 +58,11 @@ def test_refusals():
         arias_time(GroundMotion([0.0, 0.0], 0.1), 0.5)
     with pytest.raises(InvalidInput, match="start must be below end, not 0.9 and 0.1"):
         intensity(RAMP, 0.9, 0.1)
+
+
+def test_the_mean_period_lies_between_those_of_two_sines_by_their_power():
+    time = np.arange(0.0, 40.0, 0.01)
+    both = 3.0 * np.sin(2.0 * np.pi * time / 0.5) + np.sin(2.0 * np.pi * time / 2.0)
+    assert mean_period(GroundMotion(both, 0.01)) == pytest.approx((9.0 * 0.5 + 2.0) / 10.0, rel=1e-3)
+    with pytest.raises(InvalidInput, match="wave has nothing between 0.25 and 20 Hz"):
+        mean_period(GroundMotion(np.zeros(100), 0.01, name="wave"))
