@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
@@ -213,6 +214,17 @@ def sweep(
 def estimate(motions: Sequence[GroundMotion], grid: Grid, certify: bool = True) -> float:
     """Wall seconds that a sweep is expected to take on this machine's cores, roughly."""
     return _core_seconds(sum(motion.n for motion in motions), grid, certify) / cores()
+
+
+def timed(grid: Grid, motion: GroundMotion, certify: bool = True) -> tuple[float, int]:
+    """Compute all columns of a small grid in this thread; return its core seconds and changes of phase."""
+    from fdspec.kernels.sdof import RESULTS
+
+    _warm()
+    columns = np.arange(grid.stiffness_ratio.size * grid.period.size)
+    started = time.thread_time()
+    results, _, _ = _run_columns(grid, certify, certify, False, None, columns, motion)
+    return time.thread_time() - started, int(results[:, :, RESULTS.index("transitions")].sum())
 
 
 def _core_seconds(samples: int, grid: Grid, certify: bool) -> float:

@@ -46,7 +46,9 @@ if TYPE_CHECKING:
 )
 @click.option("--no-certify", is_flag=True, help="Leave out the energy balance of each history; faster.")
 @click.option(
-    "--dry-run", is_flag=True, help="Say how many histories, the expected time and size; compute nothing."
+    "--dry-run",
+    is_flag=True,
+    help="Say how many histories, the time by a measured sample, and the size; write nothing.",
 )
 @click.option(
     "--print-study", is_flag=True, help="Print the study as a study file, to be edited; compute nothing."
@@ -149,10 +151,15 @@ def _plan(study: Study, path: Path) -> str:
     """Say what a run would do."""
     import numpy as np
 
-    from fdspec.sweep import OUTPUTS, estimate
+    from fdspec.cost import measured
+    from fdspec.fanout import cores
+    from fdspec.sweep import OUTPUTS
     from fdspec.variables import CUBE
 
     motions = study.motions()
+    histories = len(motions) * study.grid.size
+    cost = measured(study.grid, motions, study.certify)
+    total, count = cost.of_sweep(study.grid, motions), cores()
     n_sr, n_f, n_t = study.grid.shape
     samples = sum(motion.n for motion in motions)
     lengths = {"record": len(motions), "stiffness_ratio": n_sr, "pretension": n_f, "period": n_t}
@@ -166,8 +173,10 @@ def _plan(study: Study, path: Path) -> str:
             f"stiffness ratios  {n_sr}",
             f"pretensions       {n_f}",
             f"periods           {n_t}",
-            f"histories         {grouped(len(motions) * study.grid.size)}",
-            f"expected time     {seconds(estimate(motions, study.grid, certify=study.certify))}",
+            f"histories         {grouped(histories)}",
+            f"measured cost     {1e6 * total / histories:.3g} us of core time a history",
+            f"transitions       {cost.transitions_per_sample * samples / len(motions):.0f} a history",
+            f"expected time     {seconds(total)} of core time, {seconds(total / count)} on {count} cores",
             f"expected size     at most {size(sum(bytes_of.values()))}",
             f"would write       {path}",
         )
