@@ -2,10 +2,10 @@
 
     core seconds = step * samples * steps + transition * transitions,
 
-where each sample takes steps = ceil(omega dt), omega = 2 pi / period sqrt((1 + SR) / (1 + m_d / m_f)) being the
-frequency, rad/s, of floor and brace moving as one.  The two constants are measured on this machine on small
-parts of the study.  They depend on the processor, on what runs beside, and on the study: histories that never
-slip share one, so that strong dampers cost next to nothing.
+where each sample takes steps = ceil(omega dt), omega = 2 pi / period sqrt((1 + SR) / (1 + m_d / m_f)) being
+the frequency, rad/s, of floor and brace moving as one.  The two constants are measured on this machine on
+small parts of the study.  They depend on the processor, on what runs beside, and on the study: histories that
+never slip share one, so that strong dampers cost next to nothing.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class Cost:
     def of_sweep(
         self, grid: Grid, motions: Sequence[GroundMotion], transitions: float | None = None
     ) -> float:
-        """Core seconds of a sweep; transitions: of all its histories, unless given as often as in the parts."""
+        """Core seconds of a sweep; transitions: of all histories, unless given as often as in the parts."""
         samples, steps = work_of(grid, motions)
         if transitions is None:
             transitions = self.transitions_per_sample * samples
