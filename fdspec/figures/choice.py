@@ -105,7 +105,7 @@ def plot_choice_records(choice: xr.Dataset) -> Figure:
         axis.set_xlabel(label)
         axis.grid(visible=True, axis="y", color="0.92", linewidth=0.6)
     left.set_yticks(rows, names)
-    left.invert_yaxis()
+    left.set_ylim(len(names) - 0.5, -0.5)
     handles, labels = left.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=4, frameon=False)
     return figure

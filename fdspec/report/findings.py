@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -31,9 +32,20 @@ def parameters(choice: xr.Dataset) -> dict[str, Any]:
 
 
 def kilonewtons(forces: Any) -> str:
-    """Write forces (N) of one or of many storeys in kN; the first is the lowest storey."""
+    """Write forces (N) of one or of many storeys in kN, the lowest first; one number where all are equal."""
     values = np.atleast_1d(forces) / 1e3
-    return ", ".join("no limit" if np.isinf(value) else f"{value:.3g}" for value in values)
+    return listed(values, lambda value: "no limit" if np.isinf(value) else rounded(value))
+
+
+def rounded(value: float) -> str:
+    """Write a number with three digits, and all of those before the point."""
+    return f"{value:.3g}" if abs(value) < 999.5 else f"{value:.0f}"
+
+
+def listed(values: Any, write: Callable[[float], str]) -> str:
+    """Write one number or many, and many that are equal once."""
+    given = values[:1] if (values == values[0]).all() else values
+    return ", ".join(write(float(value)) for value in given)
 
 
 def percent(share: float) -> str:
@@ -50,16 +62,15 @@ def index_name(choice: xr.Dataset) -> str:
 def recommendation(choice: xr.Dataset) -> list[tuple[str, str]]:
     """(Head, sentence) of the answer."""
     asked = parameters(choice)
-    many = choice.sizes["storey"] > 1
-    each = " in the storeys from the ground up" if many else ""
     start, end = (choice["band_pretension"].sel(bound=bound).values for bound in ("start", "end"))
     index = {case: float(choice["index"].sel(case=case)) for case in CASES}
-    stiffness = ", ".join(f"{value / 1e6:.3g}" for value in choice["brace_stiffness"].values)
+    stiffness = listed(choice["brace_stiffness"].values / 1e6, rounded)
+    pretension, carried = choice["pretension"].values, choice["brace_force"].values
     return [
         (
             "Pretension",
             (
-                f"{kilonewtons(choice['pretension'].values)} kN{each} (slip force "
+                f"{kilonewtons(pretension)} kN{_where(pretension)} (slip force "
                 f"{kilonewtons(choice['slip_force'].values)} kN)"
             ),
         ),
@@ -72,7 +83,7 @@ def recommendation(choice: xr.Dataset) -> list[tuple[str, str]]:
                 f"{index['braced']:.3g}"
             ),
         ),
-        ("Brace", f"{stiffness} MN/m; must carry {kilonewtons(choice['brace_force'].values)} kN{each}"),
+        ("Brace", f"{stiffness} MN/m; must carry {kilonewtons(carried)} kN{_where(carried)}"),
         ("Other braces", _other_braces(choice)),
         ("Worst record", _worst(choice)),
         ("What limits it", limits(choice)),
@@ -81,10 +92,16 @@ def recommendation(choice: xr.Dataset) -> list[tuple[str, str]]:
     ]
 
 
+def _where(forces: Any) -> str:
+    if forces.size == 1:
+        return ""
+    return " in each storey" if (forces == forces[0]).all() else " in the storeys from the ground up"
+
+
 def _range(start: Any, end: Any) -> str:
     if np.isinf(end).all():
         return f"{kilonewtons(start)} kN and more"
-    if start.size == 1:
+    if start.size == 1 or (start == start[0]).all():
         return f"{kilonewtons(start)} to {kilonewtons(end)} kN"
     return f"from ({kilonewtons(start)}) to ({kilonewtons(end)}) kN"
 
@@ -147,7 +164,9 @@ def limits(choice: xr.Dataset) -> str:
     if more:
         said.append(f"more would serve {', '.join(more)}, for which friction takes too little")
     if not said:
-        return f"every record is within {percent(near)} of its own best: what is left is the brace's"
+        return (
+            f"every record is within {percent(near)} of its own best: the brace does, not how records differ"
+        )
     lost = choice["record"].values[int(regret.argmax())]
     most = percent(float(regret.max()))
     return f"the records differ: {'; '.join(said)}; {lost} loses most, {most} of its best"
@@ -175,12 +194,12 @@ def _residual(choice: xr.Dataset) -> str:
 def assumptions(choice: xr.Dataset) -> list[str]:
     """What the answer takes for granted."""
     asked = parameters(choice)
-    masses = ", ".join(f"{mass / 1e3:.4g}" for mass in asked["floor_mass"])
-    braces = ", ".join(f"{mass:.4g}" for mass in asked["brace_mass"])
+    masses = listed(np.array(asked["floor_mass"]) / 1e3, lambda mass: f"{mass:.4g}")
+    braces = listed(np.array(asked["brace_mass"]), lambda mass: f"{mass:.4g}")
     kinetic = asked["kinetic_ratio"]
     friction = "equal static and kinetic friction"
     if min(kinetic) < 1.0:
-        friction = f"kinetic friction {', '.join(f'{ratio:.3g}' for ratio in kinetic)} times the static"
+        friction = f"kinetic friction {listed(np.array(kinetic), rounded)} times the static"
     distribution = {
         "uniform": "one slip force for all storeys",
         "shear": "slip forces in proportion to the storey shears of the braced building",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import re
 from collections.abc import Sequence
 from html import escape
 from typing import TYPE_CHECKING, Final
@@ -77,9 +78,9 @@ def page(choice: xr.Dataset, building: Building, motions: GroundMotion | Sequenc
     told = recommendation(choice)
     parts = [
         f"<h1>{title}</h1>",
-        f'<p class="answer"><strong>{escape(told[0][1])}</strong><br>{escape(told[2][1])}</p>',
+        f'<p class="answer"><strong>{_words(told[0][1])}</strong><br>{_words(told[2][1])}</p>',
         "<dl>",
-        *(f"<dt>{escape(head)}</dt><dd>{escape(sentence)}</dd>" for head, sentence in told),
+        *(f"<dt>{escape(head)}</dt><dd>{_words(sentence)}</dd>" for head, sentence in told),
         "</dl>",
         "<h2>Index over pretension</h2>",
         _picture(
@@ -130,6 +131,14 @@ def page(choice: xr.Dataset, building: Building, motions: GroundMotion | Sequenc
         f'<meta name="viewport" content="width=device-width, initial-scale=1">\n<title>{title}</title>\n'
         f"<style>{STYLE}</style>\n</head>\n<body>\n<main>\n{body}\n</main>\n</body>\n</html>\n"
     )
+
+
+def _words(sentence: str) -> str:
+    """A sentence in which no number is parted from its unit."""
+    escaped = escape(sentence)
+    for unit in ("%", "kN", "mm", "g", "MN/m"):
+        escaped = re.sub(rf"(?<=\d) (?={re.escape(unit)}(?![\w/]))", "&nbsp;", escaped)
+    return escaped
 
 
 def _picture(figure: Figure, alternative: str, caption: str) -> str:

@@ -248,6 +248,11 @@ def test_many_storeys_are_told_storey_by_storey(of_building: xr.Dataset) -> None
     assert "in proportion to the storey shears" in said
 
 
+def test_equal_storeys_are_told_once(of_building: xr.Dataset) -> None:
+    equal = altered(of_building, pretension=lambda _: 2.5e6)
+    assert "Pretension       2500 kN in each storey" in text(equal)
+
+
 class Reader(HTMLParser):
     """What a page refers to, and what its pictures say."""
 
