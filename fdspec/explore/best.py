@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from fdspec.choice import best_pretension
 from fdspec.errors import InvalidInput
 from fdspec.explore.indices import INDICES
 from fdspec.explore.packing import pack
@@ -22,6 +21,8 @@ def packed_best(
     InvalidInput
         For an index that is not searched, a position outside the cube, or a record that cannot be found.
     """
+    from fdspec.choice import best_pretension  # a quarter of a second that the first page need not wait for
+
     known = {one.name: (one.measure, one.refined) for one in INDICES}
     measure, refined = known.get(index, ("", None))
     if refined is None:

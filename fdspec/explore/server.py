@@ -72,8 +72,8 @@ async def _serve(content: Content, rerun: Rerun, host: str, port: int, ready: Ca
 
 
 def _warm() -> None:
-    for kernels in ("fdspec.single_storey", "fdspec.columns", "fdspec.strain"):
-        import_module(kernels)
+    for name in ("fdspec.single_storey", "fdspec.choice", "fdspec.columns", "fdspec.strain"):
+        import_module(name)
 
 
 def application(content: Content, rerun: Rerun, host: str) -> Application:

@@ -14,9 +14,10 @@ from playwright.sync_api import Download, Page, Response
 
 import fdspec
 from fdspec import store
+from fdspec.cli import main
 from fdspec.units import G
 from tests.browser.conftest import NARROW, PATIENCE, WIDE, Watched
-from tests.explored import PERIOD, PRETENSION, STIFFNESS_RATIO, unpack
+from tests.explored import PERIOD, PRETENSION, STIFFNESS_RATIO, own_motion, small_cube, unpack
 
 pytestmark = pytest.mark.browser
 
@@ -374,6 +375,22 @@ def test_the_file_needs_no_server(wide: Watched, folder: Path, cube: xr.Dataset,
     assert saved(page, "surface-0", "PNG", tmp_path).read_bytes().startswith(b"\x89PNG")
 
 
+def test_names_from_files_are_text_and_no_markup(wide: Watched, tmp_path: Path) -> None:
+    evil = "<img src=x onerror=alert(1)> <b>& 'q\" %{y}"
+    made = small_cube(own_motion(evil), own_motion("</script><script>document.title = 'gone'</script>"))
+    store.save(made, tmp_path / "cube.nc")
+    assert main(["export", str(tmp_path / "cube.nc"), "-o", str(tmp_path / "cube.html")]) == 0
+    page = wide.open((tmp_path / "cube.html").as_uri())
+    page.select_option("#compare", index=2)
+    wide.settled()
+    assert page.title() == "cube.nc - fdspec explore"
+    assert page.locator("img").count() == 0
+    assert evil in page.locator("#map-0 h2").inner_text()
+    assert evil in (page.locator("#best-pretension .legend").text_content() or "")
+    name = saved(page, "map-0", "CSV", tmp_path).name
+    assert re.fullmatch(r"[\w.-]+", name)
+
+
 def test_colours_are_even_and_told_apart_by_colour_blind_eyes(wide: Watched, address: str) -> None:
     page = wide.open(address)
     page.select_option("#compare", label="FMR1")
@@ -391,7 +408,9 @@ def test_colours_are_even_and_told_apart_by_colour_blind_eyes(wide: Watched, add
     for card, one, other in together:
         pair = np.array([channels(drawn(page, card, k)["line"]["color"]) for k in (one, other)])
         for sight in SIGHTS:
-            assert np.linalg.norm(np.subtract(*lab(pair, sight))) > 40.0, (card, sight)
+            assert np.linalg.norm(np.subtract(*lab(pair, sight))) > 30.0, (card, sight)
+        for colour in pair:  # WCAG 2.2, 1.4.11: graphics on white
+            assert 1.05 / (luminance(colour) + 0.05) >= 3.0, (card, colour)
 
 
 SIGHTS = {
@@ -416,10 +435,18 @@ def channels(colour: str) -> list[float]:
     return [float(part) / 255 for part in re.findall(r"[\d.]+", colour)[:3]]
 
 
+def linear_of(srgb: np.ndarray) -> np.ndarray:
+    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+
+
+def luminance(srgb: np.ndarray) -> float:
+    """Return WCAG's relative luminance of a colour (3,)."""
+    return float(linear_of(srgb) @ [0.2126, 0.7152, 0.0722])
+
+
 def lab(srgb: np.ndarray, sight: str) -> np.ndarray:
     """Return CIELAB (D65) of sRGB colours (n, 3) as such eyes see them."""
-    linear = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
-    linear = np.clip(linear @ SIGHTS[sight].T, 0.0, 1.0)
+    linear = np.clip(linear_of(srgb) @ SIGHTS[sight].T, 0.0, 1.0)
     to_xyz = np.array(
         [
             [0.4124564, 0.3575761, 0.1804375],

@@ -42,6 +42,8 @@ function card(picture) {
   figure.id = picture.id;
   title.id = `${picture.id}-title`;
   words.id = `${picture.id}-words`;
+  // What a moved point leads to is spoken too.
+  if (picture.look === "history") words.setAttribute("aria-live", "polite");
   figure.setAttribute("aria-labelledby", title.id);
   head.className = "head";
   save.className = "save";
@@ -207,7 +209,7 @@ async function show(delay = 0) {
     const first = !cards.has("surface-0");
     const coming = about.served ? new Promise((done) => setTimeout(() => done(turn === asked && runHistories(shown)), delay)) : null;
     if (first) for (const step of curves) await step();
-    if (first) await coming;
+    if (first) await Promise.race([coming, new Promise((done) => setTimeout(done, 1500))]);
     performance.mark("ready");
     for (const step of maps("surface")) {
       if (turn !== asked) return;
@@ -236,10 +238,13 @@ function orderCards() {
   if (wanted.some((figure, n) => place.children[n] !== figure)) place.append(...wanted);
 }
 
+const COMPILING = "The history is on its way. After an installation kernels are compiled once, which takes a minute or two.";
+
 async function runHistories(shown) {
   byId("status").textContent = "";
   for (const n of shown.keys()) cards.get(`history-${n}`)?.plotted.classList.add("wait");
   const problems = [];
+  const patience = setTimeout(() => { byId("status").textContent = COMPILING; }, 4000);
   await Promise.all(shown.map(async ({ k }, n) => {
     try {
       const found = await askHistory(state, k, n);
@@ -254,7 +259,8 @@ async function runHistories(shown) {
       problems.push(error.message);
     }
   }));
-  if (problems.length) byId("status").textContent = [...new Set(problems)].join(" ");
+  clearTimeout(patience);
+  if (problems.length || byId("status").textContent === COMPILING) byId("status").textContent = [...new Set(problems)].join(" ");
 }
 
 // ---- words below the pictures

@@ -7,7 +7,7 @@ const RECORD_LINES = [
   { color: "#0072B2", dash: "solid", symbol: "circle" },
   { color: "#D55E00", dash: "dash", symbol: "square" },
 ];
-const FLOOR = "#0072B2", BRACE = "#D55E00", GROUND = "#E69F00", LIMIT = "#4a5866";
+const FLOOR = "#0072B2", BRACE = "#D55E00", GROUND = "#5c5c5c", LIMIT = "#4a5866";
 const FONT = { family: 'system-ui, "Segoe UI", "DejaVu Sans", sans-serif', size: 12, color: "#1b2733" };
 // No buttons over the pictures, which keys do not reach: the page has its own. No zoom by dragging where a
 // finger drags to scroll.
@@ -170,7 +170,7 @@ function historyPlot(history, narrow) {
     line("brace", time, brace_displacement, BRACE, { line: { color: BRACE, width: 1, dash: "dot" } }),
     line("friction", time, friction_force, FLOOR, { yaxis: "y2", showlegend: false }),
     line("floor, absolute", time, acceleration, FLOOR, { yaxis: "y3", showlegend: false }),
-    line("ground", time, ground_acceleration, GROUND, { yaxis: "y3" }),
+    line("ground", time, ground_acceleration, GROUND, { yaxis: "y3", line: { color: GROUND, width: 0.8 } }),
     line("loop", loop_slip, loop_force, FLOOR, { xaxis: "x2", yaxis: "y4", showlegend: false }),
   ];
   const rows = narrow ? [[0.83, 1], [0.615, 0.785], [0.4, 0.57]] : [[0.7, 1], [0.36, 0.64], [0, 0.3]];
