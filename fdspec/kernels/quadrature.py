@@ -12,6 +12,13 @@ _points, _weights = np.polynomial.legendre.leggauss(10)
 NODES = tuple(float(x) for x in 0.5 * (1.0 + _points))
 WEIGHTS = tuple(float(w) for w in 0.5 * _weights)
 
+_points, _weights = np.polynomial.legendre.leggauss(5)
+FEW_NODES = tuple(float(x) for x in 0.5 * (1.0 + _points))
+FEW_WEIGHTS = tuple(float(w) for w in 0.5 * _weights)
+
+SHORT = 0.3
+"""Phase (rad) over which the few nodes are exact to rounding."""
+
 
 @inner
 def step_loss(g, w2, h):
@@ -50,3 +57,13 @@ def series_square(c, n, h, x):
         rise = value_slope(c, 0, n, x * NODES[j])[1]
         total += WEIGHTS[j] * rise * rise
     return total * x / h
+
+
+@inner
+def short_square(c, n, h):
+    """Integral of velocity squared over a whole step of at most SHORT radians; arguments as above."""
+    total = 0.0
+    for j in range(len(FEW_NODES)):
+        rise = value_slope(c, 0, n, FEW_NODES[j])[1]
+        total += FEW_WEIGHTS[j] * rise * rise
+    return total / h

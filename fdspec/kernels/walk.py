@@ -25,7 +25,7 @@ from fdspec.kernels.energy import (
 )
 from fdspec.kernels.friction import GOES_ON, phase_after_stop, reaction, sliding_kick
 from fdspec.kernels.oscillator import advance, area, expand, square_integral
-from fdspec.kernels.quadrature import series_square
+from fdspec.kernels.quadrature import SHORT, series_square, short_square
 from fdspec.kernels.roots import value_slope
 from fdspec.kernels.slip import (
     base_shear,
@@ -169,33 +169,26 @@ def begin(plan, start, s):
 
 
 @inner
-def whole_piece_work(plan, forms, phase, motion, end, force, acceleration, rate, h, certify):
-    """Input and viscous work on a whole piece."""
+def whole_loss(plan, forms, phase, motion, force):
+    """Viscous work (J) on a whole piece."""
     storey = plan.storey
-    lost = 0.0
     if phase == STICK:
-        swept = area(plan.stick_map, motion.u, motion.v, force.p0, force.p1)
-        if certify:
-            lost = (storey.floor_damping + storey.brace_damping) * square_integral(
-                loss_at(forms, STICK_FORM), motion.u, motion.v, force.p0, force.p1
-            )
-        return input_work(plan, phase, motion, end, swept, 0.0, acceleration, rate, h), lost
-    swept = area(plan.floor_map, motion.u, motion.v, force.p0, force.p1)
-    swung = area(plan.brace_map, motion.d, motion.e, force.b0, force.b1)
-    if certify:
-        lost = storey.floor_damping * square_integral(
-            loss_at(forms, FLOOR_FORM), motion.u, motion.v, force.p0, force.p1
+        return (storey.floor_damping + storey.brace_damping) * square_integral(
+            loss_at(forms, STICK_FORM), motion.u, motion.v, force.p0, force.p1
         )
-        if storey.brace_damping > 0.0:
-            lost += storey.brace_damping * square_integral(
-                loss_at(forms, BRACE_FORM), motion.d, motion.e, force.b0, force.b1
-            )
-    return input_work(plan, phase, motion, end, swept, swung, acceleration, rate, h), lost
+    lost = storey.floor_damping * square_integral(
+        loss_at(forms, FLOOR_FORM), motion.u, motion.v, force.p0, force.p1
+    )
+    if storey.brace_damping > 0.0:
+        lost += storey.brace_damping * square_integral(
+            loss_at(forms, BRACE_FORM), motion.d, motion.e, force.b0, force.b1
+        )
+    return lost
 
 
 @inner
 def part_loss(plan, phase, floor, motion, force, h):
-    """Viscous work (J) on a part of a piece; ``floor`` is room for a series."""
+    """Viscous work (J) on a part of a piece; while slipping the brace has no damping, see `at_once`."""
     b = plan.stick
     order = int(plan.stick_order)
     damping = plan.storey.floor_damping + plan.storey.brace_damping
@@ -203,8 +196,51 @@ def part_loss(plan, phase, floor, motion, force, h):
         b = plan.floor
         order = int(plan.floor_order)
         damping = plan.storey.floor_damping
+    if h == 0.0:
+        return 0.0
     expand(floor, order, motion.u, motion.v, b.g, b.w2, force.p0, force.p1, h)
-    return damping * series_square(floor, order, h, 1.0) if h > 0.0 else 0.0
+    if b.rate * h <= SHORT:
+        return damping * short_square(floor, order, h)
+    return damping * series_square(floor, order, h, 1.0)
+
+
+@inlined
+def at_once(plan, phase, whole, motion, force, offset, kick, h):
+    """What the ends of a piece of length h tell of it.
+
+    Returns the verdict (see `fdspec.kernels.crossing`); the phase that follows where it crosses; how
+    far the piece then reaches, s; the motion there; the integrals of both displacements until there.
+    """
+    storey = plan.storey
+    swung = 0.0
+    if phase == STICK:
+        if whole:
+            u, v = advance(plan.stick_map, motion.u, motion.v, force.p0, force.p1)
+            end = Motion(u, v, u - offset, v)
+            swept = area(plan.stick_map, motion.u, motion.v, force.p0, force.p1)
+        else:
+            end, swept = stick_ahead(plan, motion, force, offset, h)
+        found, side, near = stick_verdict(plan, motion, end, force, offset, h)
+        if found == CROSSES:
+            h, end, swept = locate_slip(plan, motion, force, offset, side, near, h)
+        return found if h >= 0.0 else UNCLEAR, side, h, end, swept, swung
+    swift = storey.brace_mass > 0.0 and plan.brace.w2 > 0.0 and plan.brace.g == 0.0
+    if whole:
+        u, v = advance(plan.floor_map, motion.u, motion.v, force.p0, force.p1)
+        d, e = advance(plan.brace_map, motion.d, motion.e, force.b0, force.b1)
+        end = Motion(u, v, d, e)
+        swept = area(plan.floor_map, motion.u, motion.v, force.p0, force.p1)
+        swung = area(plan.brace_map, motion.d, motion.e, force.b0, force.b1)
+    elif swift:
+        end, swept, swung = slip_ahead(plan, motion, force, h)
+    else:
+        return UNCLEAR, phase, h, motion, 0.0, 0.0
+    found, near = slip_verdict(plan, motion, end, force, phase, kick, h)
+    if found == CROSSES:
+        if not swift:
+            return UNCLEAR, phase, h, end, swept, swung
+        h, end, swept, swung = locate_stop(plan, motion, force, phase, near, h)
+    return found if h >= 0.0 else UNCLEAR, phase, h, end, swept, swung
 
 
 @inner
@@ -272,7 +308,6 @@ def walk(
     free = limit == 0.0
     tracing = traces.shape[0] > 0
     loose = storey.brace_mass == 0.0 and storey.brace_damping == 0.0
-    swift = storey.brace_mass > 0.0 and plan.brace.w2 > 0.0 and plan.brace.g == 0.0
 
     motion = Motion(s[U], s[V], s[D], s[E])
     offset = s[OFFSET]
@@ -293,51 +328,23 @@ def walk(
 
         found = UNCLEAR
         sign = phase
-        when = 0.0
-        swept = 0.0
-        swung = 0.0
-        end = motion
-        if not tracing and touching == STICK:
-            if phase == STICK:
-                if whole:
-                    u, v = advance(plan.stick_map, motion.u, motion.v, force.p0, force.p1)
-                    end = Motion(u, v, u - offset, v)
-                else:
-                    end, swept = stick_ahead(plan, motion, force, offset, h)
-                found, sign, when = stick_verdict(plan, motion, end, force, offset, h)
-                if found == CROSSES:
-                    when, end, swept = locate_slip(plan, motion, force, offset, sign, when, h)
-            elif whole or swift:
-                if whole:
-                    u, v = advance(plan.floor_map, motion.u, motion.v, force.p0, force.p1)
-                    d, e = advance(plan.brace_map, motion.d, motion.e, force.b0, force.b1)
-                    end = Motion(u, v, d, e)
-                else:
-                    end, swept, swung = slip_ahead(plan, motion, force, h)
-                found, when = slip_verdict(plan, motion, end, force, phase, kick, h)
-                if found == CROSSES and swift:
-                    when, end, swept, swung = locate_stop(plan, motion, force, phase, when, h)
-                elif found == CROSSES:
-                    found = UNCLEAR
-            if when < 0.0:
-                found = UNCLEAR
-
-        happens = found == CROSSES
         share = 0.0
+        length = h
+        end = motion
+        swept = swung = 0.0
+        if not tracing and touching == STICK:
+            found, sign, length, end, swept, swung = at_once(
+                plan, phase, whole, motion, force, offset, kick, h
+            )
         if found != UNCLEAR:
+            happens = found == CROSSES
+            h = length
             if energy:
-                if whole and not happens:
-                    done, lost = whole_piece_work(
-                        plan, forms, phase, motion, end, force, acceleration, rate, h, certify
-                    )
-                else:
-                    h = when if happens else h
-                    done = input_work(plan, phase, motion, end, swept, swung, acceleration, rate, h)
-                    lost = part_loss(plan, phase, floor, motion, force, h) if certify else 0.0
-                s[INPUT] += done
-                s[VISCOUS] += lost
-            if happens:
-                h = when
+                s[INPUT] += input_work(plan, phase, motion, end, swept, swung, acceleration, rate, h)
+            if certify and whole and not happens:
+                s[VISCOUS] += whole_loss(plan, forms, phase, motion, force)
+            elif certify:
+                s[VISCOUS] += part_loss(plan, phase, floor, motion, force, h)
         else:
             if phase == STICK:
                 b = plan.stick

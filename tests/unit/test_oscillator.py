@@ -19,7 +19,7 @@ from fdspec.kernels.oscillator import (
     step_map,
     undamped_ahead,
 )
-from fdspec.kernels.quadrature import series_area, series_square, step_loss
+from fdspec.kernels.quadrature import SHORT, series_area, series_square, short_square, step_loss
 
 OSCILLATORS = [
     (0.0, 400.0, 0.03),
@@ -90,10 +90,13 @@ def test_viscous_work(g: float, w2: float, h: float) -> None:
     """Two quadratures of v^2 against the energy balance of the oscillator itself."""
     order = series_order(rate_bound(g, w2) * h)
     x, v, p0, p1 = START
-    c = np.zeros(TERMS)
+    c, d = np.zeros(TERMS), np.zeros(TERMS)
     expand(c, order, x, v, g, w2, p0, p1, h)
     form = square_integral(step_loss(g, w2, h), *START)
     assert series_square(c, order, h, 1.0) == pytest.approx(form, rel=1e-12)
+    short = min(1.0, SHORT / max(rate_bound(g, w2) * h, 1e-9))
+    expand(d, order, x, v, g, w2, p0, p1, short * h)
+    assert short_square(d, order, short * h) == pytest.approx(series_square(c, order, h, short), rel=1e-13)
     fine = np.linspace(0.0, 1.0, 20001)
     speed = np.polynomial.Polynomial(c[: order + 1]).deriv()(fine) / h
     assert form == pytest.approx(np.trapezoid(speed**2, fine * h), rel=1e-7)
