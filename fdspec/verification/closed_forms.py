@@ -8,11 +8,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from fdspec.building import Building, ModalDamping
+from fdspec.course import FloatArray
 from fdspec.motion import GroundMotion
 from fdspec.simulate import simulate
 from fdspec.verification.problems import rubbing, still
 from fdspec.verification.row import Row, absolute, relative
-from fdspec.verification.samples import crest
 
 
 def rows(full: bool) -> Iterator[Row]:  # noqa: ARG001
@@ -101,3 +101,10 @@ def bilinear_extrema(
         extrema.append(u)
         energy, sign = 0.0, -sign
     return extrema
+
+
+def crest(samples: FloatArray) -> float:
+    """Largest value of the parabola through the largest sample inside and its neighbours."""
+    i = int(np.argmax(samples[1:-1])) + 1
+    before, at, after = samples[i - 1 : i + 2]
+    return float(at + (after - before) ** 2 / (8.0 * (2.0 * at - before - after)))
