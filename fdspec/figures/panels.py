@@ -56,7 +56,6 @@ def draw_surface(axis: Any, data: Acceleration, k: int) -> None:
     axis.set_zlim(0.0, top)
     axis.set_xlabel("period, s", fontsize=SMALL, labelpad=-7)
     axis.set_ylabel("pretension, kN", fontsize=SMALL, labelpad=-5)
-    axis.text2D(0.0, 0.88, HEIGHT, transform=axis.transAxes, fontsize=SMALL)
     axis.tick_params(labelsize=SMALL, pad=-3)
     # Both axes begin in one corner, where their zeros would stand over each other.
     axis.xaxis.set_major_locator(MaxNLocator(4, prune="lower"))

@@ -11,7 +11,7 @@ from fdspec.errors import InvalidInput
 from fdspec.figures.acceleration import Acceleration, of_record
 from fdspec.figures.caption import SIZE, height, wrapped
 from fdspec.figures.page import Figure
-from fdspec.figures.panels import BEST, at, draw_map, draw_scale, draw_surface
+from fdspec.figures.panels import BEST, HEIGHT, SMALL, at, draw_map, draw_scale, draw_surface
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -84,14 +84,10 @@ def plot_acceleration(
         draw_surface(space, data, k)
         space.set_box_aspect((4, 4, 3), zoom=1.08)
         draw_map(at(figure, left + SURFACE + BETWEEN, bottom + 0.45, MAP, TALL), data, k)
-        figure.text(
-            (left - 0.08) / width,
-            (bottom + STEP - 0.16) / tall,
-            f"SR = {data.stiffness_ratio[k]:g}",
-            fontsize=9.5,
-            fontweight="bold",
-            va="center",
-        )
+        heading = (bottom + STEP - 0.16) / tall
+        name = f"SR = {data.stiffness_ratio[k]:g}"
+        figure.text((left - 0.08) / width, heading, name, fontsize=9.5, fontweight="bold", va="center")
+        figure.text((left + 0.85) / width, heading, HEIGHT, fontsize=SMALL, va="center")
     high = min(rows * STEP - 0.5, 4.5)
     draw_scale(figure, data, width - 0.66, below + 0.5 * (rows * STEP - high), high)
     heading = title or f"Peak absolute acceleration of the floor, record {record}"
