@@ -108,4 +108,5 @@ print(f"{'exact':>8} {0:18} {history.transitions.item():17d}")
 # The floor, four hundred times heavier than the brace, hides most of this. The brace does not: its
 # acceleration jumps at each change of phase, and so does the force that it hands on.
 #
-# Next: {doc}`the study's nine records <03-the-study>`.
+# How other methods fare: {doc}`methods compared <methods-compared>`. Next: {doc}`the study's nine records
+# <03-the-study>`.

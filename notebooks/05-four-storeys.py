@@ -139,5 +139,6 @@ for name in shapes:
     print(f"{name:9} least drift {least:5.2f} mm with slip forces of {force:5.0f} kN in all")
 
 # %% [markdown]
-# Drift and acceleration do not ask for the same dampers. What one gains on either hand, and how to search
-# the distribution instead of guessing it, is a matter of its own.
+# Drift and acceleration do not ask for the same dampers. What one gains on either hand: {doc}`choosing a
+# pretension <06-choosing-a-pretension>`; how to search the distribution instead of guessing it:
+# {doc}`slip forces of four storeys <07-slip-forces-of-four-storeys>`.

@@ -84,10 +84,10 @@ def plot_acceleration(
         draw_surface(space, data, k)
         space.set_box_aspect((4, 4, 3), zoom=1.08)
         draw_map(at(figure, left + SURFACE + BETWEEN, bottom + 0.45, MAP, TALL), data, k)
-        heading = (bottom + STEP - 0.16) / tall
+        line = (bottom + STEP - 0.16) / tall
         name = f"SR = {data.stiffness_ratio[k]:g}"
-        figure.text((left - 0.08) / width, heading, name, fontsize=9.5, fontweight="bold", va="center")
-        figure.text((left + 0.85) / width, heading, HEIGHT, fontsize=SMALL, va="center")
+        figure.text((left - 0.08) / width, line, name, fontsize=9.5, fontweight="bold", va="center")
+        figure.text((left + 0.85) / width, line, HEIGHT, fontsize=SMALL, va="center")
     high = min(rows * STEP - 0.5, 4.5)
     draw_scale(figure, data, width - 0.66, below + 0.5 * (rows * STEP - high), high)
     heading = title or f"Peak absolute acceleration of the floor, record {record}"
