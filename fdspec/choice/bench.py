@@ -181,8 +181,13 @@ class Bench:
 
     def judge(self, slip_force: FloatArray) -> FloatArray:
         """The index of each row of slip forces (c, N), over the records together: (c,)."""
-        found = self.index_of(self.respond(slip_force))
-        return np.asarray(statistic_of(self.statistic)(found, axis=1))
+        return self.together(self.index_of(self.respond(slip_force)))
+
+    def together(self, indices: FloatArray) -> FloatArray:
+        """The statistic of indices (c, r) over the records: (c,); inf where a record has none."""
+        with np.errstate(invalid="ignore"):  # a quantile between two infinities
+            found = np.asarray(statistic_of(self.statistic)(indices, axis=1))
+        return np.where(np.isfinite(indices).all(axis=1), found, np.inf)
 
     def _limit(self, building: Building) -> dict[str, FloatArray]:
         # One storey without a brace never slips; in a frame it is no storey that could.

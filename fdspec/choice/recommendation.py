@@ -17,7 +17,6 @@ from fdspec.choice.search import Scan
 from fdspec.choice.variables import CHOICE
 from fdspec.cube import assemble
 from fdspec.errors import InvalidInput
-from fdspec.measures.ensemble import statistic_of
 from fdspec.measures.indices import Weights, weights_of
 from fdspec.motion import GroundMotion
 from fdspec.progress import progress as progress_bar
@@ -162,7 +161,7 @@ def choose(
         "trial_pretension": found.x[:, np.newaxis] * shape / per_pretension,
         "trial_index": found.y,
         "trial_index_of_record": of_record,
-        "index": _together(bench, indices),
+        "index": bench.together(indices),
         "index_of_record": indices,
         "regret": indices[CASES.index("chosen")] / least - 1.0,
         **responses,
@@ -219,15 +218,11 @@ def _searched(bench: Bench, shape: FloatArray, band: float) -> tuple[Scan, Float
         each = bench.index_of(bench.respond(forces))
         factors.append(forces[:, largest])
         indices.append(each)
-        return _together(bench, each)
+        return bench.together(each)
 
     found = best_scale(bench, shape, band, judged)
     order = np.argsort(np.concatenate(factors), kind="stable")
     return found, np.concatenate(indices)[order]
-
-
-def _together(bench: Bench, indices: FloatArray) -> FloatArray:
-    return np.asarray(statistic_of(bench.statistic)(indices, axis=1))
 
 
 def _with_braces(building: Building, scale: float) -> Building:

@@ -13,6 +13,7 @@ from fdspec.errors import InvalidInput
 from fdspec.measures import INDICES, best_for_all, index_of, needs_of, slip_load_spectrum
 from fdspec.motion import GroundMotion
 from fdspec.sweep import OUTPUTS
+from fdspec.validation import four_storey, kalamata
 
 NAMES = ("FSR1", "FSR2", "FSR3", "FMR1", "FMR2", "FMR3", "FHR1", "FHR2", "FHR3")
 
@@ -246,6 +247,28 @@ def test_the_same_seed_gives_the_same_bits(building: Building, short: list[Groun
     one = fdspec.optimise(building, short, **how, seed=7, workers=1)
     assert same(one, fdspec.optimise(building, short, **how, seed=7, workers=3))
     assert not same(one, fdspec.optimise(building, short, **how, seed=8))
+
+
+@pytest.mark.slow
+def test_the_study_s_four_storeys_repeat_bit_for_bit() -> None:
+    """The must-hold line: the same seed, other threads, the same bits; no worse than its start."""
+    how: dict[str, Any] = {"index": "displacement", "population": 3, "generations": 5, "seed": 3}
+    motions = [kalamata.stand_in(), fdspec.load_record("FSR1")]
+    one = fdspec.optimise(four_storey.building(), motions, **how, workers=1)
+    assert same(one, fdspec.optimise(four_storey.building(), motions, **how, workers=2))
+    assert one["index"] < one["start_index"].min()
+
+
+@pytest.mark.parametrize("statistic", ["mean", "median", "p84", "worst"])
+def test_a_history_that_did_not_end_well_rules_its_forces_out(
+    building: Building, short: list[GroundMotion], statistic: str
+) -> None:
+    bench = Bench(building, short, statistic=statistic)
+    responses = bench.respond(np.array([[10e3, 10e3], [20e3, 20e3]]))
+    responses["status"][0, 0] = 1.0
+    found = bench.together(bench.index_of(responses))
+    assert np.isinf(found[0])
+    assert np.isfinite(found[1])
 
 
 def test_uniform_and_shear_are_what_they_say(building: Building, short: list[GroundMotion]) -> None:
