@@ -79,6 +79,7 @@ class Content:
                     "unit": index.unit,
                     "best": index.best,
                     "searched": bool(index.measure),
+                    "colours": list(index.colours),
                 }
                 for index in self.indices
             ],

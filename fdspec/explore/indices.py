@@ -24,6 +24,7 @@ class Index:
     `reads` are the variables of the cube that `values` needs; `best` says which end is good, or that neither
     is and no best pretension can be told. Where `fdspec.best_pretension` can search between the cube's
     pretensions, `measure` is its name for the index and `refined` reads the index off what it returns.
+    Colours end at `colours`, low and high, where the index goes far beyond what anybody would choose.
     """
 
     name: str
@@ -34,6 +35,7 @@ class Index:
     values: Values
     measure: str = ""
     refined: Values | None = None
+    colours: tuple[float | None, float | None] = (None, None)
 
 
 def _scaled(name: str, factor: float) -> Values:
@@ -50,7 +52,15 @@ def _judged(name: str) -> Values:
 
 def _judged_index(name: str, title: str) -> Index:
     return Index(
-        f"{name}_index", title, "", "least", needs_of(name), _judged(name), name, lambda best: best["index"]
+        f"{name}_index",
+        title,
+        "",
+        "least",
+        needs_of(name),
+        _judged(name),
+        name,
+        lambda best: best["index"],
+        (None, 2.0),
     )
 
 
@@ -74,6 +84,7 @@ INDICES: Final = (
         _reduced("against_bare"),
         "acceleration",
         lambda best: 100.0 * (1.0 - best["index"]),
+        (-100.0, None),
     ),
     Index(
         "reduction_to_braced",
@@ -84,6 +95,7 @@ INDICES: Final = (
         _reduced("against_braced"),
         "acceleration",
         lambda best: 100.0 * (1.0 - best["peak_acceleration"] / best["braced_acceleration"]),
+        (-100.0, None),
     ),
     Index(
         "displacement",

@@ -192,6 +192,8 @@ def test_two_records_share_one_scale_and_both_have_histories(
     assert (first["zmin"], first["zmax"]) == (second["zmin"], second["zmax"])
     largest = cube["peak_acceleration"].sel(record=["FSR1", "FMR1"]).max().item() / G
     assert first["zmax"] >= largest
+    ids = page.evaluate("Array.from(document.querySelectorAll('figure'), (figure) => figure.id)")
+    assert ids[:6] == ["map-0", "surface-0", "map-1", "surface-1", "history-0", "history-1"]
     assert "FMR1" in page.locator("#history-1 h2").inner_text()
     curves = page.evaluate(
         "document.querySelector('#over-pretension .plot').data.filter((t) => t.showlegend !== false)"
@@ -203,6 +205,19 @@ def test_two_records_share_one_scale_and_both_have_histories(
     page.select_option("#compare", label="no other")
     wide.settled()
     assert page.locator("#map-1, #surface-1, #history-1").count() == 0
+
+
+def test_colours_end_where_nobody_would_choose(wide: Watched, address: str, cube: xr.Dataset) -> None:
+    page = wide.open(address)
+    page.select_option("#index", label="Reduction of acceleration against the bare frame")
+    wide.settled()
+    peak, bare = (cube[name].sel(record="FSR1") for name in ("peak_acceleration", "elastic_acceleration"))
+    reduction = 100 * (1 - peak / bare).sel(stiffness_ratio=4.0).transpose("pretension", "period").values
+    assert reduction.min() < -100.0
+    assert np.allclose(drawn(page, "map-0")["z"], reduction, rtol=1e-12)
+    assert drawn(page, "map-0")["zmin"] == -100.0
+    assert "Colours end at -100 %." in words(page, "map-0")
+    assert f"{reduction.min():.4g} %" in words(page, "map-0")
 
 
 def saved(page: Page, card: str, label: str, folder: Path) -> Path:

@@ -64,8 +64,8 @@ function slice(values, ratio) {
   return rows;
 }
 
-// Bounds and step of the colours: round numbers, from 0 or below to the largest value.
-function scaleOf(arrays) {
+// Bounds and step of the colours: round numbers, from 0 or below to the largest value, but not beyond [least, most].
+function scaleOf(arrays, [least, most]) {
   let low = 0, high = -Infinity;
   for (const values of arrays) {
     for (const v of values) {
@@ -73,6 +73,8 @@ function scaleOf(arrays) {
       if (v > high && v < Infinity) high = v;
     }
   }
+  low = Math.max(low, least ?? -Infinity);
+  high = Math.min(high, most ?? Infinity);
   if (!(high > low)) high = low + 1;
   const rough = (high - low) / 18, power = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 2.5, 5, 10].map((m) => m * power).find((m) => m >= rough * 0.999);

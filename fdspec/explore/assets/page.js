@@ -196,7 +196,7 @@ async function show(delay = 0) {
     controlsFromState();
     toAddress();
     const index = chosenIndex();
-    const scale = scaleOf(shown.map(({ numbers }) => numbers[index.name]));
+    const scale = scaleOf(shown.map(({ numbers }) => numbers[index.name]), index.colours);
     if (shown.length === 1) ["map-1", "surface-1", "history-1"].forEach(discard);
     const maps = (kind) => shown.map(({ k, numbers }, n) => () => draw(mapPicture(n, k, numbers, scale, kind)));
     const curves = ["over-pretension", ...(index.best ? ["best-pretension"] : [])].map((kind) => () => draw(curvePicture(kind, shown)));
@@ -220,6 +220,7 @@ async function show(delay = 0) {
     orderCards();
     tables(shown);
     await coming;
+    orderCards();
     // A record that has no history has no search either, and that was said.
     if (!about.served || byId("status").textContent || turn !== asked) return;
     await searchHere(shown);
@@ -231,11 +232,13 @@ async function show(delay = 0) {
   }
 }
 
-// The second record's map stands under the first one's, each beside its surface.
+// The second record's map stands under the first one's, each beside its surface; histories likewise, whichever came first.
+const ORDER = { maps: ["map-0", "surface-0", "map-1", "surface-1"], histories: ["history-0", "history-1"] };
 function orderCards() {
-  const wanted = ["map-0", "surface-0", "map-1", "surface-1"].filter((id) => cards.has(id)).map((id) => cards.get(id).figure);
-  const place = byId("maps");
-  if (wanted.some((figure, n) => place.children[n] !== figure)) place.append(...wanted);
+  for (const [place, ids] of Object.entries(ORDER)) {
+    const wanted = ids.filter((id) => cards.has(id)).map((id) => cards.get(id).figure);
+    if (wanted.some((figure, n) => byId(place).children[n] !== figure)) byId(place).append(...wanted);
+  }
 }
 
 const COMPILING = "The history is on its way. After an installation kernels are compiled once, which takes a minute or two.";

@@ -25,6 +25,16 @@ function axis(title, more) {
   return { title: { text: title, standoff: 6 }, gridcolor: "#e3e8ec", zeroline: false, ticks: "outside", ticklen: 3, ...more };
 }
 
+// A long title in lines that fit the height of a picture.
+function folded(text, letters = 30) {
+  const lines = [""];
+  for (const word of text.split(" ")) {
+    if (lines.at(-1) && lines.at(-1).length + word.length >= letters) lines.push("");
+    lines[lines.length - 1] += (lines.at(-1) ? " " : "") + word;
+  }
+  return lines.join("<br>");
+}
+
 function ends(values) {
   return [values[0], values[values.length - 1]];
 }
@@ -134,7 +144,7 @@ function slicePlot(s, index, shown) {
     data,
     layout: layout({
       showlegend: true, legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0 }, margin: { l: 58, r: 12, t: 30, b: 42 },
-      xaxis: axis("pretension, kN"), yaxis: axis(`${index.title.toLowerCase()}${unitOf(index)}`, { rangemode: "tozero" }),
+      xaxis: axis("pretension, kN"), yaxis: axis(folded(`${index.title}${unitOf(index)}`), { rangemode: "tozero", automargin: true }),
       shapes: [...bands, { type: "line", x0: AXES.pretension[s.force], x1: AXES.pretension[s.force], y0: 0, y1: 1, yref: "paper", line: { color: LIMIT, width: 1, dash: "dot" } }],
     }),
   };

@@ -24,6 +24,9 @@ function mapWords(s, k, index, numbers) {
   const at = ([v, f, t]) => `${written(v, index.unit)} at ${written(AXES.period[t], "s")} and ${written(AXES.pretension[f], "kN")}`;
   const parts = [`From ${at(low)} to ${at(high)}.`];
   if (!index.best) parts.push("This index has no best pretension.");
+  const [least, most] = index.colours;
+  if (least !== null && low[0] < least) parts.push(`Colours end at ${written(least, index.unit)}.`);
+  if (most !== null && high[0] > most) parts.push(`Colours end at ${written(most, index.unit)}.`);
   if (missing) parts.push(`${missing} histories did not end well and are left out.`);
   return parts.join(" ");
 }
@@ -37,7 +40,7 @@ function bestWords(s, k, index, numbers) {
   if (!told || !Number.isFinite(told.value)) return of;
   const end = Number.isFinite(told.end) ? `to ${written(told.end, "kN")}` : "without end";
   return `${of} Between them the best is ${written(told.pretension, "kN")}: ${written(told.value, index.unit)}, ` +
-    `and within 5 % of it from ${written(told.start, "kN")} ${end}.`;
+    `and the response is at most 5 % above the least from ${written(told.start, "kN")} ${end}.`;
 }
 
 function curveWords(s, k, index, numbers) {
