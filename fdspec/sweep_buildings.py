@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from functools import partial
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 import xarray as xr
@@ -16,6 +16,9 @@ from fdspec.cube import assemble, chosen, named
 from fdspec.fanout import Task, fan_out, plan
 from fdspec.motion import GroundMotion
 from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS
+
+if TYPE_CHECKING:
+    from distributed import Client
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -39,6 +42,7 @@ def sweep_buildings(
     workers: int | None = None,
     scheduler: str = "threads",
     cells_per_task: int | None = None,
+    client: Client | None = None,
     progress: bool = False,
 ) -> xr.Dataset:
     """Compute the cube of buildings: peaks of every storey over record, building and two factors on dampers.
@@ -70,6 +74,8 @@ def sweep_buildings(
         A scheduler of dask: "threads", "processes" or "synchronous".
     cells_per_task : int, optional
         Histories of one task; about 0.2 s of work unless given.  No result depends on it.
+    client : distributed.Client, optional
+        Any cluster of dask.distributed, in place of threads here.
     progress : bool
         Show a bar on stderr where it is a terminal.
 
@@ -113,6 +119,7 @@ def sweep_buildings(
         warm=_warm,
         workers=workers,
         scheduler=scheduler,
+        client=client,
         progress=progress,
     )
     return assemble(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
@@ -15,6 +15,10 @@ from fdspec.store.replacing import replacing
 
 if TYPE_CHECKING:
     import xarray as xr
+
+
+CACHE: Final = 1 << 20
+"""Bytes that HDF5 may keep of a variable."""
 
 
 def to_netcdf(store: str | os.PathLike[str], path: str | os.PathLike[str], *, overwrite: bool = True) -> None:
@@ -62,4 +66,6 @@ def _declare(
         fill_value=False,
     )
     stored.set_auto_maskandscale(False)
+    # Whole chunks are written, each once: nothing is to be kept for later.
+    stored.set_var_chunk_cache(size=CACHE)
     stored.setncatts({**array.attrs, "coordinates": " ".join(told)})

@@ -145,6 +145,14 @@ def test_two_processes_give_the_bits_of_threads(
     xr.testing.assert_identical(swept.load(), plain)
 
 
+def test_buildings_in_two_processes(two: Any, motions: list[fdspec.GroundMotion]) -> None:
+    building = fdspec.Building([20e3, 18e3], [12e6, 9e6], 50.0, 30e6, [20e3, 10e3])
+    factors: dict[str, Any] = {"slip_scale": [0.5, 1.0], "stiffness_scale": [1.0]}
+    here = fdspec.sweep_buildings(motions, {"two": building}, **factors)
+    there = fdspec.sweep_buildings(motions, {"two": building}, **factors, client=two, cells_per_task=1)
+    xr.testing.assert_identical(there, here)
+
+
 def test_a_killed_worker_costs_nothing_but_time(
     two: Any, motions: list[fdspec.GroundMotion], plain: xr.Dataset, tmp_path: Path
 ) -> None:
