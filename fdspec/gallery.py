@@ -69,13 +69,15 @@ class Picture:
         return f"Figure {self.number}: {self.title}" if self.number.isdigit() else self.title
 
 
-def study_pictures(cube: xr.Dataset) -> list[Picture]:
+def study_pictures(cube: xr.Dataset, given: Sequence[GroundMotion] = ()) -> list[Picture]:
     """Return the pictures that a cube gives, in the study's order.
 
     Parameters
     ----------
     cube : xarray.Dataset
         What `fdspec.sweep` returns.
+    given : sequence of GroundMotion
+        Motions beside the catalogue's that the cube may have been made with.
 
     Returns
     -------
@@ -83,7 +85,7 @@ def study_pictures(cube: xr.Dataset) -> list[Picture]:
         4 and 6, the validation problems, which need no cube; 8 and 9, of those records of the cube
         that are found; one a record, 10 to 18 for those of the study. Nothing is drawn before `draw`.
     """
-    motions, _ = applied_motions(cube)
+    motions, _ = applied_motions(cube, given)
     pictures = [_figure_4(), _figure_6()]
     if motions:
         pictures += [_figure_8(motions), _figure_9(cube, motions)]
@@ -93,8 +95,17 @@ def study_pictures(cube: xr.Dataset) -> list[Picture]:
     return pictures + [_of_record(cube, name) for name in (*known, *others)]
 
 
-def applied_motions(cube: xr.Dataset) -> tuple[list[GroundMotion], list[str]]:
-    """Find the ground motions that a cube was made with, by name or path, and prove them by their checksums.
+def applied_motions(
+    cube: xr.Dataset, given: Sequence[GroundMotion] = ()
+) -> tuple[list[GroundMotion], list[str]]:
+    """Find the ground motions that a cube was made with, proved by their checksums.
+
+    Parameters
+    ----------
+    cube : xarray.Dataset
+        What `fdspec.sweep` returns.
+    given : sequence of GroundMotion
+        Where to look before the catalogue, such as what `Study.motions` returns.
 
     Returns
     -------
@@ -103,33 +114,33 @@ def applied_motions(cube: xr.Dataset) -> tuple[list[GroundMotion], list[str]]:
     lost : list of str
         Names of those that are nowhere to be found, or are not what they were.
     """
+    if "checksum" not in cube.coords:
+        return [], [str(name) for name in cube["record"].values]
+    by_checksum = {motion.checksum: motion for motion in given}
     found, lost = [], []
-    for k, name in enumerate(str(one) for one in cube["record"].values):
-        source = str(cube["source"].values[k]) if "source" in cube.coords else ""
-        wanted = str(cube["checksum"].values[k]) if "checksum" in cube.coords else ""
-        motion = next((one for one in _candidates(name, source) if one.checksum == wanted), None)
+    for name, checksum in zip(cube["record"].values, cube["checksum"].values, strict=True):
+        motion = by_checksum.get(str(checksum)) or _of_catalogue(str(name), str(checksum))
         if motion is None:
-            lost.append(name)
+            lost.append(str(name))
         else:
             found.append(motion)
     return found, lost
 
 
-def _candidates(name: str, source: str) -> list[GroundMotion]:
-    from fdspec.records import catalogue, load_record, read_record
+def _of_catalogue(name: str, checksum: str) -> GroundMotion | None:
+    """Load a record of the study by its name, scaled or as recorded, when it is the one."""
+    from fdspec.records import load_record
 
-    tried: list[Callable[[], GroundMotion]] = []
-    if name in {entry.name for entry in catalogue()}:
-        tried += [lambda: load_record(name), lambda: load_record(name, scaled=False)]
-    if source:
-        tried.append(lambda: read_record(source, name=name))
-    motions = []
-    for attempt in tried:
+    if name not in RECORD_FIGURES:
+        return None
+    for scaled in (True, False):
         try:
-            motions.append(attempt())
+            motion = load_record(name, scaled=scaled)
         except FdspecError:
-            continue
-    return motions
+            return None
+        if motion.checksum == checksum:
+            return motion
+    return None
 
 
 def methods_compared() -> dict[str, xr.Dataset]:

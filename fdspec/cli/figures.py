@@ -40,10 +40,22 @@ CAPTIONS: Final = "captions.md"
     type=click.Choice(KINDS),
     help="Repeat it for several.  [default: png and pdf]",
 )
+@click.option(
+    "--study",
+    "study_file",
+    metavar="STUDY.toml",
+    help="The file the cube was made from: figures 8 and 9 find your own records by it.",
+)
 @click.option("--list", "listed", is_flag=True, help="Say which figures this cube gives, and stop.")
 @force_option
 def figures(
-    cube: str, output: str, only: str | None, kinds: tuple[str, ...], listed: bool, force: bool
+    cube: str,
+    output: str,
+    only: str | None,
+    kinds: tuple[str, ...],
+    study_file: str | None,
+    listed: bool,
+    force: bool,
 ) -> None:
     """Draw the study's figures: 4 and 6 (validation), 8 and 9 (records), 10 to 18 (acceleration).
 
@@ -55,9 +67,11 @@ def figures(
     from fdspec.figures import plot_contact_sheet
     from fdspec.gallery import applied_motions, chosen, study_pictures
     from fdspec.progress import progress
+    from fdspec.study import Study
 
     dataset = store.open(cube)
-    pictures = chosen(study_pictures(dataset), _numbers(only))
+    given = Study.read(study_file).motions() if study_file else ()
+    pictures = chosen(study_pictures(dataset, given), _numbers(only))
     if listed:
         click.echo("\n".join(f"{picture.number:5} {picture.title}" for picture in pictures))
         return
@@ -69,11 +83,11 @@ def figures(
     captions = folder / CAPTIONS
     for path in [*(path for files in paths for path in files), *sheet, *([captions] if whole else [])]:
         free(path, force=force, suffixes=(path.suffix,))
-    _, lost = applied_motions(dataset)
+    _, lost = applied_motions(dataset, given)
     if lost and (only is None or {"8", "9"} & set(_numbers(only))):
         click.echo(
             f"fdspec: warning: figures 8 and 9 are without {', '.join(lost)}: no record found with the "
-            "cube's checksum",
+            "cube's checksum; name its study file with --study",
             err=True,
         )
     thumbnails = {}

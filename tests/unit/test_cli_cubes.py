@@ -66,7 +66,8 @@ def test_all_figures_come_with_a_sheet_and_captions(folder: Path, capsys: pytest
     assert [Path(line).name for line in told.out.splitlines()] == [f"{stem}.pdf" for stem in stems]
     assert names(folder / "pictures") == {*(f"{stem}.pdf" for stem in stems), "captions.md"}
     assert told.err == (
-        "fdspec: warning: figures 8 and 9 are without odd/name: no record found with the cube's checksum\n"
+        "fdspec: warning: figures 8 and 9 are without odd/name: no record found with the cube's checksum; "
+        "name its study file with --study\n"
     )
     captions = (folder / "pictures" / "captions.md").read_text(encoding="utf-8")
     assert [line.split("**")[1] for line in captions.splitlines() if line] == stems[:-1]

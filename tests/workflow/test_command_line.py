@@ -68,6 +68,8 @@ def test_from_study_to_cube_to_pictures_and_export(folder: Path, capsys: pytest.
     assert done(capsys, "figures", "mine.nc", "--only", "mine") == (
         "figures/record-mine.png\nfigures/record-mine.pdf\n"
     )
+    told = done(capsys, "figures", "mine.nc", "--study", "mine.toml", "--only", "8", "--format", "svg")
+    assert told == "figures/figure-08-records.svg\n"
     assert done(capsys, "export", "mine.nc", "--record", "FSR1", "-o", "fsr1.csv") == "fsr1.csv\n"
     assert names(folder) == {"mine.txt", "mine.toml", "mine.nc", "figures", "fsr1.csv"}
 
