@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fdspec.jit import inlined, inner
 from fdspec.kernels.oscillator import expand
-from fdspec.kernels.roots import largest_magnitude
+from fdspec.kernels.roots import TAIL, THIRD, largest_magnitude
 from fdspec.kernels.types import STICK, Force, Peaks
 
 
@@ -36,8 +36,8 @@ def swing(branch, v, a, force_rate):
 @inlined
 def crest(start, start_rise, end, end_rise, fourth):
     """Bound on a magnitude over a step, from values and rises (slope times step) at both ends."""
-    inside = max(abs(start + start_rise / 3.0), abs(end - end_rise / 3.0))
-    return max(max(abs(start), abs(end)), inside + fourth / 288.0)
+    inside = max(abs(start + start_rise * THIRD), abs(end - end_rise * THIRD))
+    return max(max(abs(start), abs(end)), inside + fourth * TAIL)
 
 
 @inner

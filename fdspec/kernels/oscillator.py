@@ -201,18 +201,22 @@ def ahead(x, v, g, w2, p0, p1, h, n):
 
 
 @inlined
-def undamped_ahead(x, v, omega, p0, p1, h):
-    """The same for g = 0 in closed form; half angles leave no cancellation beyond that of p1's share."""
+def undamped_ahead(x, v, omega, slowness, p0, p1, h):
+    """The same for g = 0 in closed form; half angles leave no cancellation beyond that of p1's share.
+
+    slowness: 1 / omega, s.
+    """
     half = 0.5 * omega * h
     sine = math.sin(half)
     w2 = omega * omega
-    rise = 2.0 * sine * sine / w2
-    sine *= 2.0 * math.cos(half) / omega
-    late = (h - sine) / w2
+    drift = slowness * slowness
+    rise = 2.0 * sine * sine * drift
+    sine *= 2.0 * math.cos(half) * slowness
+    late = (h - sine) * drift
     pull = p0 - w2 * x
     end = x + v * sine + pull * rise + p1 * late
     slope = v + pull * sine + (p1 - w2 * v) * rise
-    area = x * h + v * rise + pull * late + p1 * (0.5 * h * h - rise) / w2
+    area = x * h + v * rise + pull * late + p1 * (0.5 * h * h - rise) * drift
     return end, slope, area
 
 

@@ -18,6 +18,7 @@ import math
 
 from fdspec.jit import inlined, inner
 from fdspec.kernels.energy import STICK_FORM, STRIDE_FORM
+from fdspec.kernels.roots import TAIL, THIRD
 from fdspec.kernels.shelf import STICK_MAP
 from fdspec.kernels.types import (
     INPUT,
@@ -40,10 +41,6 @@ from fdspec.kernels.types import (
 
 WIDTH = 16
 """Histories side by side: two registers of AVX-512, four of AVX2, so that one hides another's latency."""
-
-THIRD = 1.0 / 3.0
-TAIL = 1.0 / 288.0
-"""Weight of the bound on the fourth derivative; see fdspec.kernels.roots."""
 
 # Rows behind the state: where a step would lead, and whether a lane must walk it.
 _AT = N_STATE

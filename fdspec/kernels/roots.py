@@ -23,6 +23,8 @@ from fdspec.jit import inlined, inner
 NO_ROOT = 2.0
 """Returned where there is no root in [0, 1]."""
 
+THIRD = 1.0 / 3.0
+
 TAIL = 1.0 / 288.0
 """Weight of a bound on the fourth derivative against the inner Bezier ordinates."""
 
@@ -88,7 +90,7 @@ def clears(start, start_rise, end, end_rise, fourth):
 
     Values at both ends, slopes times the step, and a bound on the fourth derivative times step^4.
     """
-    inside = min(start + start_rise / 3.0, end - end_rise / 3.0)
+    inside = min(start + start_rise * THIRD, end - end_rise * THIRD)
     return start > 0.0 and end > 0.0 and inside >= fourth * TAIL
 
 

@@ -85,7 +85,8 @@ def slip_ahead(plan, start, force, t):
     """
     f = plan.floor
     u, v, swept = ahead(start.u, start.v, f.g, f.w2, force.p0, force.p1, t, int(plan.floor_order))
-    d, e, swung = undamped_ahead(start.d, start.e, plan.brace.rate, force.b0, force.b1, t)
+    b = plan.brace
+    d, e, swung = undamped_ahead(start.d, start.e, b.rate, b.slowness, force.b0, force.b1, t)
     return Motion(u, v, d, e), swept, swung
 
 

@@ -66,7 +66,7 @@ def test_ahead(g: float, w2: float, h: float) -> None:
 def test_ahead_without_damping(phase: float) -> None:
     omega = 500.0
     x, v, p0, p1 = START
-    found = undamped_ahead(x, v, omega, p0, p1, phase / omega)
+    found = undamped_ahead(x, v, omega, 1.0 / omega, p0, p1, phase / omega)
     expected = exponential(0.0, omega * omega, phase / omega)[:3]
     assert found == pytest.approx(expected, rel=1e-12, abs=1e-16)
 
