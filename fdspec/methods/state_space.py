@@ -40,7 +40,7 @@ class StateSpace(Method):
     -----
     The study cites the method without printing it, so its equations have no numbers here.  Friction is held
     over a step and the ground is linear in it.  A damper may start or stop within a step, on the average of
-    it: the error falls faster than the study's scheme's, about as dt^1.8.  The step must be shorter than half
+    it: the error falls nearly with the square of the step.  The step must be shorter than half
     a period of the fastest brace.  A massless brace has no sliding velocity of its own: "bilinear" is this
     scheme for it.
     """
