@@ -145,6 +145,7 @@ def test_two_processes_give_the_bits_of_threads(
     xr.testing.assert_identical(swept.load(), plain)
 
 
+@pytest.mark.slow
 def test_buildings_in_two_processes(two: Any, motions: list[fdspec.GroundMotion]) -> None:
     building = fdspec.Building([20e3, 18e3], [12e6, 9e6], 50.0, 30e6, [20e3, 10e3])
     factors: dict[str, Any] = {"slip_scale": [0.5, 1.0], "stiffness_scale": [1.0]}
@@ -153,6 +154,7 @@ def test_buildings_in_two_processes(two: Any, motions: list[fdspec.GroundMotion]
     xr.testing.assert_identical(there, here)
 
 
+@pytest.mark.slow
 def test_a_killed_worker_costs_nothing_but_time(
     two: Any, motions: list[fdspec.GroundMotion], plain: xr.Dataset, tmp_path: Path
 ) -> None:
@@ -165,6 +167,7 @@ def test_a_killed_worker_costs_nothing_but_time(
     assert victim not in two.run(os.getpid).values()
 
 
+@pytest.mark.slow
 def test_records_travel_once(two: Any, motions: list[fdspec.GroundMotion]) -> None:
     """Twelve tasks under one record: it comes to each of two workers at most once."""
     long = fdspec.GroundMotion(np.tile(motions[0].acceleration, 200), 0.01, name="long")
@@ -234,6 +237,7 @@ def test_nobody_at_the_address(monkeypatch: pytest.MonkeyPatch) -> None:
         pass
 
 
+@pytest.mark.slow
 def test_over_tcp_from_the_command_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("study.toml").write_text(
