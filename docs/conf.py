@@ -30,11 +30,12 @@ myst_heading_anchors = 3
 suppress_warnings = ["myst.xref_ambiguous"]
 
 # docs/notebooks is a link to notebooks/, whose files are Python in the percent format; each runs in a kernel
-# of its own, and a cell that fails fails the build. So does a notebook that takes longer than this, s.
+# of its own, and a cell that fails fails the build. So does a notebook that takes longer than this, s. The
+# gallery is read first, and pays for kernels that were never compiled: so cells may take longer.
 NOTEBOOK_LIMIT = 120
 nb_custom_formats = {".py": ["jupytext.reads", {"fmt": "py:percent"}]}
 nb_execution_mode = "force"
-nb_execution_timeout = 2 * NOTEBOOK_LIMIT
+nb_execution_timeout = 600
 nb_execution_raise_on_error = True
 nb_merge_streams = True
 
