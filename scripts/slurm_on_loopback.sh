@@ -68,8 +68,9 @@ CONF
 }
 
 stop() {
-    for daemon in slurmd slurmctld; do
-        [ ! -f "$folder/$daemon.pid" ] || kill "$(cat "$folder/$daemon.pid")" || true
+    SLURM_CONF="$folder/slurm.conf" timeout 10 scancel --user="$(id -un)" || true
+    for pid in "$folder"/{slurmd,slurmctld}.pid /run/munge/fdspec.pid; do
+        [ ! -f "$pid" ] || kill "$(cat "$pid")" || true
     done
 }
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fdspec.store.blocks import Blocks, cut
@@ -22,6 +22,7 @@ def cuts(draw: st.DrawFn) -> Blocks:
     return Blocks(sizes, edges | {"pretension": sizes["pretension"]})
 
 
+@settings(max_examples=30)
 @given(cuts())
 def test_every_cell_of_a_variable_is_written_by_one_block(blocks: Blocks) -> None:
     for variable in VARIABLES:
@@ -35,6 +36,7 @@ def test_every_cell_of_a_variable_is_written_by_one_block(blocks: Blocks) -> Non
         assert len(set(chunks)) == len(chunks)
 
 
+@settings(max_examples=30)
 @given(cuts(), st.data())
 def test_a_block_is_found_from_any_of_its_cells(blocks: Blocks, data: st.DataObject) -> None:
     number = data.draw(st.integers(0, len(blocks) - 1))
@@ -44,6 +46,7 @@ def test_a_block_is_found_from_any_of_its_cells(blocks: Blocks, data: st.DataObj
     assert blocks.number(at) == number
 
 
+@settings(max_examples=30)
 @given(st.fixed_dictionaries(dict.fromkeys(STUDY_DIMS, st.integers(1, 50))), st.floats(1, 1e6))
 def test_blocks_are_no_larger_than_asked_for_and_whole_along_pretensions(
     sizes: dict[str, int], cells: float
