@@ -68,7 +68,12 @@ CONF
 }
 
 stop() {
-    SLURM_CONF="$folder/slurm.conf" timeout 10 scancel --user="$(id -un)" || true
+    export SLURM_CONF="$folder/slurm.conf"
+    timeout 10 scancel --signal=KILL --full --user="$(id -un)" || true
+    for _ in $(seq 50); do
+        [ -n "$(timeout 5 squeue --noheader 2>/dev/null)" ] || break
+        sleep 0.2
+    done
     for pid in "$folder"/{slurmd,slurmctld}.pid /run/munge/fdspec.pid; do
         [ ! -f "$pid" ] || kill "$(cat "$pid")" || true
     done

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final, ParamSpec, TypeVar
 
 import click
 
-from fdspec.errors import DiskError, FdspecError
+from fdspec.errors import ClusterError, DiskError, FdspecError
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -110,7 +110,7 @@ def kept(store: Path | None) -> Iterator[None]:
     """When the work stops early, say where what is finished is kept."""
     try:
         yield
-    except (FdspecError, KeyboardInterrupt):
+    except (ClusterError, DiskError, KeyboardInterrupt):
         if store is not None and store.exists():
             click.echo(
                 f"fdspec: {store} keeps what is finished; the same command goes on from there", err=True
