@@ -75,7 +75,7 @@ def _cells(row: Row) -> list[str]:
         _number(row.reference),
         _number(row.computed),
         f"{row.error:.1e}",
-        f"{row.limit:.0e}" if row.limit else "0",
+        f"{row.limit:.2g}",
         "pass" if row.passed else "FAIL",
     ]
 

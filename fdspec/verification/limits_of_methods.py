@@ -6,8 +6,12 @@ import math
 from collections.abc import Callable, Iterator
 from typing import Final
 
+import numpy as np
+
 from fdspec.building import Building, ModalDamping
+from fdspec.course import FloatArray
 from fdspec.methods import (
+    EXACT,
     Bilinear,
     BoucWen,
     Dimova,
@@ -50,6 +54,11 @@ def peak(building: Building, motion: GroundMotion, method: Method | None = None)
     return float(history["peak_acceleration"][0])
 
 
+def displacement(building: Building, motion: GroundMotion, method: str | Method) -> FloatArray:
+    """Displacement of the floor at the motion's samples by a method, m."""
+    return np.asarray(simulate(building, motion, method=method)["displacement"].values[:, 0])
+
+
 def linear(motion: GroundMotion) -> Iterator[Row]:
     """No friction, and friction that is never overcome, against the exact engine's linear frames."""
     for force, label in ((0.0, "no friction"), (math.inf, "never slips")):
@@ -76,9 +85,13 @@ def massless(motion: GroundMotion, full: bool) -> Iterator[Row]:
         "bouc-wen, exponent 4 to 64": lambda k: BoucWen(exponent=4.0 * k),
         "dimova, band 0.016 to 0.001 m/s": lambda k: Dimova(velocity_band=0.016 / k, dt=1e-3),
     }
+    reference = displacement(building, motion, EXACT)
     for name, law in laws.items() if full else ():
-        first, last = (abs(peak(building, motion, law(k)) / exact - 1.0) for k in (1.0, 16.0))
-        yield at_most(f"{name}, massless brace", "last error over first", last / first, 0.25)
+        # Of the whole motion: the error of one peak may pass through zero on the way.
+        first, last = (
+            float(np.max(np.abs(displacement(building, motion, law(k)) - reference))) for k in (1.0, 16.0)
+        )
+        yield at_most(f"{name}, massless brace", "last error of displacement over first", last / first, 0.25)
 
 
 def rigid(motion: GroundMotion, full: bool) -> Iterator[Row]:
