@@ -92,6 +92,7 @@ def sweep_into(
         names = tuple(map(str, frame["record"].values))
         work = partial(_fill, path.resolve(), blocks, names, tuple(variables), compute)
         fan(work, tasks=[Task(*_columns(blocks, number)) for number in todo], finished=finished)
+    chunks.still_there(path)  # also under the last block
     chunks.tidy(path)
     log.info("%s: complete", path)
     return open_cube(path)

@@ -129,17 +129,21 @@ def write(
     import zarr
 
     with written(path):
-        # Zarr would make the folders of a store that is gone anew.
-        if not is_store(path):
-            raise DiskError(
-                f"cannot write {os.fspath(path)}: on {socket.gethostname()} there is no such store; it was "
-                "removed, or the workers do not share its file system"
-            )
+        still_there(path)  # Zarr would make the folders of a store that is gone anew
         group = zarr.open_group(path, mode="r+", zarr_format=3)
         for variable in sorted(variables, key=lambda variable: variable.name == STATUS):
             if blocks.owns(number, variable):
                 array: Any = group[variable.name]
                 array[blocks.region(number, variable)] = values[variable.name]
+
+
+def still_there(path: str | os.PathLike[str]) -> None:
+    """Raise DiskError for a store that was there and is not."""
+    if not is_store(path):
+        raise DiskError(
+            f"cannot write {os.fspath(path)}: on {socket.gethostname()} there is no such store; it was "
+            "removed, or the workers do not share its file system"
+        )
 
 
 def states(

@@ -128,7 +128,7 @@ def test_a_store_that_is_deleted_at_work(folder: Path) -> None:
         f"""
         {SWEEP} -o cube.zarr & sweep=$!
         until find cube.zarr -path '*/status/c/*' -type f 2>/dev/null | grep -q .; do sleep 0.005; done
-        mv cube.zarr elsewhere
+        kill -STOP $sweep; mv cube.zarr elsewhere; kill -CONT $sweep
         wait $sweep; echo "exit code $?"
         """,
     )
