@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import math
 from collections.abc import Mapping
-from typing import Final
+from typing import Any, Final
 
 from matplotlib.image import imread
 
@@ -49,9 +49,16 @@ def plot_contact_sheet(pictures: Mapping[str, bytes], *, title: str = "") -> Fig
         axis = figure.add_axes(
             (left / width, bottom / tall, (WIDTH - 0.12) / width, (HEIGHT - 0.3) / tall), label=name
         )
-        axis.imshow(imread(io.BytesIO(png), format="png"), interpolation="lanczos")
+        axis.imshow(_halved(imread(io.BytesIO(png), format="png")), interpolation="hanning")
         axis.set_axis_off()
         axis.set_title(name, fontsize=8, pad=2)
     if title:
         figure.suptitle(title, y=1.0 - 0.12 / tall, fontsize=11, va="top")
     return figure
+
+
+def _halved(image: Any) -> Any:
+    """Average blocks of 2 x 2 points: thumbnails need no more, and resampling takes most of the time."""
+    rows, columns = 2 * (image.shape[0] // 2), 2 * (image.shape[1] // 2)
+    blocks = image[:rows, :columns].reshape(rows // 2, 2, columns // 2, 2, -1)
+    return blocks.mean(axis=(1, 3))
