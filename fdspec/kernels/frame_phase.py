@@ -12,7 +12,7 @@ from fdspec.kernels.frame import (
     SLIP_FORCE,
 )
 from fdspec.kernels.friction import GOES_ON, phase_after_stop
-from fdspec.kernels.taylor import DISPLACEMENT, OFFSET, SLIDING
+from fdspec.kernels.taylor import DISPLACEMENT, OFFSET, SLIDING, VELOCITY
 from fdspec.kernels.types import STICK
 
 ANCHOR = 0
@@ -50,6 +50,23 @@ def begin_slip(frame, kind, phase, fresh, state, tally, i, sign):
         after = sign * kinetic / stiffness
         state[OFFSET, i] = drift - after
         tally[RELEASE, i] += 0.5 * stiffness * (before - after) * (before - after)
+
+
+@inner
+def returns_at_once(frame, kind, phase, state, i):
+    """Whether a massless brace that has just sprung back is taken along by a storey that moves its way."""
+    drift = state[VELOCITY, i] - (state[VELOCITY, i - 1] if i > 0 else 0.0)
+    return kind[i] == MASSLESS and frame[BRACE_DAMPING, i] == 0.0 and phase[i] * drift < 0.0
+
+
+@inner
+def stay_sprung(frame, phase, fresh, touching, state, tally, i):
+    """Make such a storey stick where its brace sprang to."""
+    close_travel(state, tally, i, phase[i])
+    if frame[SLIP_FORCE, i] == frame[KINETIC_SLIP_FORCE, i]:
+        touching[i] = phase[i]
+        fresh[i] = 1
+    phase[i] = STICK
 
 
 @inner

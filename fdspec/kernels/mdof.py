@@ -37,7 +37,15 @@ from fdspec.kernels.frame_energy import (
     viscous_work,
 )
 from fdspec.kernels.frame_peaks import PEAK_ROWS, raise_peaks
-from fdspec.kernels.frame_phase import RELEASE, TALLY_ROWS, begin_slip, end_slip, travel_so_far
+from fdspec.kernels.frame_phase import (
+    RELEASE,
+    TALLY_ROWS,
+    begin_slip,
+    end_slip,
+    returns_at_once,
+    stay_sprung,
+    travel_so_far,
+)
 from fdspec.kernels.frame_search import SAME_INSTANT, search
 from fdspec.kernels.frame_traces import write_traces
 from fdspec.kernels.lanes import LANES
@@ -172,12 +180,16 @@ def history(
         elif abs(reaction) > frame[SLIP_FORCE, i]:
             begin_slip(frame, kind, phase, fresh, state, tally, i, 1 if reaction > 0.0 else -1)
             fresh[i] = min(fresh[i], 1)
-            counts[i] += 1.0
-            if transitions < times.size:
-                times[transitions] = 0.0
-                storeys[transitions] = i
-                phases[transitions] = phase[i]
-            transitions += 1
+            changes = 2 if returns_at_once(frame, kind, phase, state, i) else 1
+            for change in range(changes):
+                if change > 0:
+                    stay_sprung(frame, phase, fresh, touching, state, tally, i)
+                if transitions < times.size:
+                    times[transitions] = 0.0
+                    storeys[transitions] = i
+                    phases[transitions] = phase[i]
+                transitions += 1
+                counts[i] += 1.0
     for i in range(size):
         set_phase(frame, model, phase, i)
     rate = fastest_rate(model, phase, held_rate)

@@ -11,6 +11,7 @@ import math
 
 from fdspec.jit import inner
 from fdspec.kernels.energy import stored_energy
+from fdspec.kernels.friction import reaction
 from fdspec.kernels.types import (
     ANCHOR,
     INPUT,
@@ -115,9 +116,12 @@ def history(
     they have room.  traces (m, len(TRACES)): filled at k dt_out for k < m.
     """
     begin(plan, start, s)
-    if s[TRANSITIONS] > 0.0 and times.size > 0:
-        times[0] = 0.0
-        phases[0] = int(s[PHASE])
+    begun = int(s[TRANSITIONS])
+    for k in range(min(begun, times.size)):
+        times[k] = 0.0
+        phases[k] = int(s[PHASE])
+    if begun == 2 and times.size > 0:
+        phases[0] = 1 if reaction(plan.storey, start.u, start.v, start.d) > 0.0 else -1
     written = 0
     steps = ground.size - 1
     total = (steps + free_steps) * parts

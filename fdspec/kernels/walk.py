@@ -155,6 +155,16 @@ def begin(plan, start, s):
         motion, kick = begin_slip(storey, phase, motion, held)
         s[RELEASE] = spring_release(storey, start.d, motion.d)
         s[TRANSITIONS] = 1.0
+        if storey.brace_mass == 0.0 and storey.brace_damping == 0.0 and phase * motion.v < 0.0:
+            # The brace has sprung back to the floor's side, and the floor takes it along.
+            s[TRAVEL] = abs(start.d - motion.d)
+            s[OFFSET] = motion.u - motion.d
+            s[ANCHOR] = motion.u - motion.d
+            s[TRANSITIONS] = 2.0
+            if storey.kinetic_slip_force == storey.slip_force:
+                s[TOUCHING] = phase
+            motion = Motion(motion.u, motion.v, motion.d, motion.v)
+            phase = STICK
     s[U] = motion.u
     s[V] = motion.v
     s[D] = motion.d

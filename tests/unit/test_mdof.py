@@ -321,3 +321,34 @@ def test_upper_floors_begin_to_move_by_terms_of_high_order() -> None:
     course = run(tower, GroundMotion([0.0, 1.0, 0.0], 0.002))
     assert (np.diff(course.peak_drift) < 0.0).all()
     assert course.peak_drift[-1] > 0.0
+
+
+@pytest.mark.parametrize("kinetic", [50e3, 30e3])
+@pytest.mark.parametrize("velocity", [0.2, 0.0, -0.2])
+def test_a_massless_brace_released_beyond_its_slip_force_springs_back(kinetic: float, velocity: float) -> None:
+    """Then it slips on with the floor, or the floor, moving back already, takes it along at once."""
+    building = Building(20e3, 9e6, 0.0, 25e6, 50e3, kinetic, damping=ModalDamping(0.03))
+    start = np.zeros((2, 2, 1))
+    start[0] = 0.01
+    start[1] = velocity
+    still = GroundMotion(np.zeros(101), DT)
+    many = run(building, still, start=start, outputs=201)
+    single = integrate_single_storey(building, still, Span(0, still.duration / 200, 201), start)
+    assert single.energy_error < 1e-12
+    assert_same(many, single)
+    begun = many.transition_phase[many.transition_time == 0.0]
+    assert begun.tolist() == ([1] if velocity > 0.0 else [1, 0])
+    assert many.brace_displacement[0, 0] == pytest.approx(kinetic / 25e6, rel=1e-12)
+
+
+@pytest.mark.parametrize("velocity", [(0.2, -0.1), (-0.2, 0.1), (0.0, 0.0)])
+def test_two_massless_braces_released_beyond_their_slip_forces(velocity: tuple[float, float]) -> None:
+    building = Building(
+        [20e3, 18e3], [9e6, 7e6], [0.0, 0.0], [25e6, 20e6], [50e3, 30e3], damping=ModalDamping(0.03)
+    )
+    start = np.zeros((2, 2, 2))
+    start[0] = 0.01, 0.018
+    start[1] = velocity
+    course = run(building, GroundMotion(np.zeros(201), DT), start=start)
+    assert course.energy_error < 1e-12
+    assert 4 <= course.transition_time.size <= 40
