@@ -34,7 +34,13 @@ def frame_of(building: fdspec.Building) -> mdof_events.Frame:
     )
 
 
-@pytest.mark.parametrize("case", CASES, ids=str)
+LONG = {Case(2, 2), Case(3, 2), Case(4, 2)}
+"""Buildings over which the slow integrator spends more than others."""
+
+
+@pytest.mark.parametrize(
+    "case", [pytest.param(case, marks=[pytest.mark.slow] * (case in LONG), id=str(case)) for case in CASES]
+)
 def test_random_buildings(case: Case) -> None:
     acceleration, dt = numbers.motion()
     part = acceleration[250:451]
