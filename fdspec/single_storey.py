@@ -12,8 +12,8 @@ from fdspec.errors import InvalidInput
 from fdspec.kernels.plan import RADIANS
 from fdspec.kernels.sdof import RESULTS
 from fdspec.kernels.single_storey import integrate
+from fdspec.kernels.traces import TRACES
 from fdspec.kernels.types import Motion
-from fdspec.kernels.walk import TRACES
 from fdspec.motion import GroundMotion
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Final
 
 from fdspec.jit import inlined, inner
-from fdspec.kernels.oscillator import StepLoss
-from fdspec.kernels.quadrature import series_area, series_square, step_loss
+from fdspec.kernels.oscillator import SquareForm
+from fdspec.kernels.quadrature import series_area, series_square, square_form
 from fdspec.kernels.roots import value_slope
 from fdspec.kernels.types import STICK
 
@@ -22,7 +22,7 @@ and brace; of the floor over a whole step of slip."""
 @inlined
 def loss_at(forms, at):
     """Take a quadratic form from its place."""
-    return StepLoss(
+    return SquareForm(
         forms[at],
         forms[at + 1],
         forms[at + 2],
@@ -42,10 +42,10 @@ def put_losses(plan, forms):
     stick, floor, brace = plan.stick, plan.floor, plan.brace
     at = (STICK_FORM, FLOOR_FORM, BRACE_FORM, STRIDE_FORM)
     loss = (
-        step_loss(stick.g, stick.w2, plan.step),
-        step_loss(floor.g, floor.w2, plan.slip_step),
-        step_loss(brace.g, brace.w2, plan.slip_step),
-        step_loss(floor.g, floor.w2, plan.step),
+        square_form(stick.g, stick.w2, plan.step, True),
+        square_form(floor.g, floor.w2, plan.slip_step, True),
+        square_form(brace.g, brace.w2, plan.slip_step, True),
+        square_form(floor.g, floor.w2, plan.step, True),
     )
     for j in range(4):
         for k in range(10):

@@ -32,8 +32,8 @@ from fdspec.kernels.frame import (
     set_phase,
 )
 from fdspec.kernels.frame_energy import strain_energy
-from fdspec.kernels.frame_phase import TALLY_ROWS, begin_slip, end_slip
-from fdspec.kernels.frame_search import SAME_INSTANT, search
+from fdspec.kernels.frame_phase import TALLY_ROWS, begin_slip
+from fdspec.kernels.frame_step import change_phases, look_ahead
 from fdspec.kernels.lanes import LANES
 from fdspec.kernels.mdof import NO_TIME, given1d, given2d, widen
 from fdspec.kernels.quadrature import NODES, WEIGHTS
@@ -45,12 +45,9 @@ from fdspec.kernels.taylor import (
     REACH_ROWS,
     TERMS,
     end_of_step,
-    expand,
-    follow_drift,
     order_for,
-    reaction_now,
 )
-from fdspec.kernels.types import NON_FINITE_STATE, OK, STICK, TRANSITION_CAP, TRANSITION_CAP_REACHED
+from fdspec.kernels.types import NON_FINITE_STATE, OK, TRANSITION_CAP, TRANSITION_CAP_REACHED
 
 
 @inner
@@ -146,6 +143,9 @@ def strain_of_history(
     phase,
     fresh,
     touching,
+    no_times,
+    none,
+    counts,
     result,
 ):
     """Integrate one history from rest: arguments as in :func:`integrate_frame_strain`, zeroed room."""
@@ -176,35 +176,22 @@ def strain_of_history(
             n = order_for(rate * h, 0)
             acceleration = ground[step] + slope * tau
             rise = slope * h
-            expand(
+            x = look_ahead(
+                frame,
                 model,
                 stiffness_lanes,
                 damping_lanes,
                 damped,
                 grounded,
-                n,
-                h,
-                acceleration,
-                rise,
-                state,
-                series,
-                momentum,
-                reach,
-            )
-            if massless:
-                for i in range(size):
-                    if kind[i] == MASSLESS and phase[i] != STICK:
-                        follow_drift(frame, state, fresh, phase, n, h, series, i)
-            x = search(
-                frame,
-                model,
+                massless,
                 kind,
                 phase,
                 fresh,
                 touching,
-                series,
-                reach,
                 state,
+                series,
+                momentum,
+                reach,
                 n,
                 h,
                 acceleration,
@@ -227,19 +214,28 @@ def strain_of_history(
                 if parts == 1:
                     break
                 continue
-            for i in range(size):
-                if instants[i] > x + SAME_INSTANT:
-                    continue
-                if phase[i] == STICK:
-                    touching[i] = 0
-                    begin_slip(frame, kind, phase, fresh, state, tally, i, signs[i])
-                else:
-                    reaction = reaction_now(frame, model, stiffness_lanes, damping_lanes, state, i)
-                    end_slip(frame, kind, phase, fresh, touching, state, tally, i, reaction)
-                events += 1
-            for i in range(size):
-                if instants[i] <= x + SAME_INSTANT:
-                    set_phase(frame, model, phase, i)
+            events_now, _ = change_phases(
+                frame,
+                model,
+                stiffness_lanes,
+                damping_lanes,
+                kind,
+                phase,
+                fresh,
+                touching,
+                state,
+                tally,
+                instants,
+                signs,
+                x,
+                tau,
+                no_times,
+                none,
+                none,
+                0,
+                counts,
+            )
+            events += events_now
             rate = fastest_rate(model, phase, held_rate)
             if events > TRANSITION_CAP:
                 status = TRANSITION_CAP_REACHED
@@ -294,5 +290,8 @@ def integrate_frame_strain(frame, dense_stiffness, dense_damping, ground, dt, ra
         np.zeros(size, np.int64),
         np.zeros(size, np.int64),
         np.zeros(size, np.int64),
+        np.empty(0),
+        np.empty(0, np.int64),
+        np.zeros(size),
         result,
     )

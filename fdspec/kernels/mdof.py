@@ -41,12 +41,11 @@ from fdspec.kernels.frame_phase import (
     RELEASE,
     TALLY_ROWS,
     begin_slip,
-    end_slip,
     returns_at_once,
     stay_sprung,
     travel_so_far,
 )
-from fdspec.kernels.frame_search import SAME_INSTANT, search
+from fdspec.kernels.frame_step import change_phases, look_ahead
 from fdspec.kernels.frame_traces import write_traces
 from fdspec.kernels.lanes import LANES
 from fdspec.kernels.taylor import (
@@ -58,15 +57,12 @@ from fdspec.kernels.taylor import (
     TERMS,
     VELOCITY,
     end_of_step,
-    expand,
-    follow_drift,
     order_for,
     reaction_now,
 )
 from fdspec.kernels.types import (
     NON_FINITE_STATE,
     OK,
-    STICK,
     TRANSITION_CAP,
     TRANSITION_CAP_REACHED,
 )
@@ -214,35 +210,22 @@ def history(
             n = order_for(rate * h, extra)
             acceleration = a0 + slope * tau
             rise = slope * h
-            expand(
+            x = look_ahead(
+                frame,
                 model,
                 stiffness_lanes,
                 damping_lanes,
                 damped,
                 grounded,
-                n,
-                h,
-                acceleration,
-                rise,
-                state,
-                series,
-                momentum,
-                reach,
-            )
-            if massless:
-                for i in range(size):
-                    if kind[i] == MASSLESS and phase[i] != STICK:
-                        follow_drift(frame, state, fresh, phase, n, h, series, i)
-            x = search(
-                frame,
-                model,
+                massless,
                 kind,
                 phase,
                 fresh,
                 touching,
-                series,
-                reach,
                 state,
+                series,
+                momentum,
+                reach,
                 n,
                 h,
                 acceleration,
@@ -295,27 +278,28 @@ def history(
                 if parts == 1:
                     break
                 continue
-            for i in range(size):
-                if instants[i] > x + SAME_INSTANT:
-                    continue
-                changed = True
-                if phase[i] == STICK:
-                    touching[i] = 0
-                    begin_slip(frame, kind, phase, fresh, state, tally, i, signs[i])
-                else:
-                    reaction = reaction_now(frame, model, stiffness_lanes, damping_lanes, state, i)
-                    changed = end_slip(frame, kind, phase, fresh, touching, state, tally, i, reaction)
-                if changed:
-                    if transitions < times.size:
-                        times[transitions] = step * dt + tau
-                        storeys[transitions] = i
-                        phases[transitions] = phase[i]
-                    transitions += 1
-                    counts[i] += 1.0
-                events += 1
-            for i in range(size):
-                if instants[i] <= x + SAME_INSTANT:
-                    set_phase(frame, model, phase, i)
+            events_now, transitions = change_phases(
+                frame,
+                model,
+                stiffness_lanes,
+                damping_lanes,
+                kind,
+                phase,
+                fresh,
+                touching,
+                state,
+                tally,
+                instants,
+                signs,
+                x,
+                step * dt + tau,
+                times,
+                storeys,
+                phases,
+                transitions,
+                counts,
+            )
+            events += events_now
             rate = fastest_rate(model, phase, held_rate)
             if events > TRANSITION_CAP:
                 status = TRANSITION_CAP_REACHED

@@ -41,8 +41,8 @@ class StepMap(NamedTuple):
     i1: float
 
 
-class StepLoss(NamedTuple):
-    """Integral of v^2 over a step: the upper triangle of a quadratic form in x, v, p0, p1 at its start."""
+class SquareForm(NamedTuple):
+    """Integral of v^2 or x^2 over a step: upper triangle of a quadratic form in x, v, p0, p1 at its start."""
 
     xx: float
     xv: float

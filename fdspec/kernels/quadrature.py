@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fdspec.jit import inner
-from fdspec.kernels.oscillator import INVERSE, StepLoss, step_map
+from fdspec.kernels.oscillator import INVERSE, SquareForm, step_map
 from fdspec.kernels.roots import value_slope
 
 _points, _weights = np.polynomial.legendre.leggauss(10)
@@ -21,23 +21,26 @@ SHORT = 0.3
 
 
 @inner
-def step_loss(g, w2, h):
-    """The quadratic form of the integral of v^2 over a step of length h."""
+def square_form(g, w2, h, of_velocity):
+    """The quadratic form of the integral of v^2 over a step of length h, or else of x^2."""
     xx = xv = x0 = x1 = vv = v0 = v1 = p00 = p01 = p11 = 0.0
     for j in range(len(NODES)):
         to = step_map(g, w2, NODES[j] * h)
+        x, v, p, q = to.xx, to.xv, to.x0, to.x1
+        if of_velocity:
+            x, v, p, q = to.vx, to.vv, to.v0, to.v1
         weight = WEIGHTS[j] * h
-        xx += weight * to.vx * to.vx
-        xv += weight * to.vx * to.vv
-        x0 += weight * to.vx * to.v0
-        x1 += weight * to.vx * to.v1
-        vv += weight * to.vv * to.vv
-        v0 += weight * to.vv * to.v0
-        v1 += weight * to.vv * to.v1
-        p00 += weight * to.v0 * to.v0
-        p01 += weight * to.v0 * to.v1
-        p11 += weight * to.v1 * to.v1
-    return StepLoss(xx, xv, x0, x1, vv, v0, v1, p00, p01, p11)
+        xx += weight * x * x
+        xv += weight * x * v
+        x0 += weight * x * p
+        x1 += weight * x * q
+        vv += weight * v * v
+        v0 += weight * v * p
+        v1 += weight * v * q
+        p00 += weight * p * p
+        p01 += weight * p * q
+        p11 += weight * q * q
+    return SquareForm(xx, xv, x0, x1, vv, v0, v1, p00, p01, p11)
 
 
 @inner

@@ -17,9 +17,9 @@ from numba import types
 from fdspec.jit import entry, float1d, float2d, ground1d, inner, int1d
 from fdspec.kernels.bounds import crest, floor_fourths, forcing, relative_acceleration
 from fdspec.kernels.energy import N_FORMS, loss_at
-from fdspec.kernels.oscillator import TERMS, StepLoss, advance, area, expand, square_integral, step_map
+from fdspec.kernels.oscillator import TERMS, advance, area, expand, square_integral
 from fdspec.kernels.plan import plan, steps_per_sample
-from fdspec.kernels.quadrature import NODES, WEIGHTS, series_area
+from fdspec.kernels.quadrature import series_area, square_form
 from fdspec.kernels.roots import largest_magnitude, value_slope
 from fdspec.kernels.slip import brace_fourths
 from fdspec.kernels.types import (
@@ -51,33 +51,13 @@ the floor and of the brace over one of slip."""
 
 
 @inner
-def square_form(g, w2, h):
-    """The quadratic form of the integral of x^2 over a step, in x, v, p0, p1 at its start."""
-    xx = xv = x0 = x1 = vv = v0 = v1 = p00 = p01 = p11 = 0.0
-    for j in range(len(NODES)):
-        to = step_map(g, w2, NODES[j] * h)
-        weight = WEIGHTS[j] * h
-        xx += weight * to.xx * to.xx
-        xv += weight * to.xx * to.xv
-        x0 += weight * to.xx * to.x0
-        x1 += weight * to.xx * to.x1
-        vv += weight * to.xv * to.xv
-        v0 += weight * to.xv * to.x0
-        v1 += weight * to.xv * to.x1
-        p00 += weight * to.x0 * to.x0
-        p01 += weight * to.x0 * to.x1
-        p11 += weight * to.x1 * to.x1
-    return StepLoss(xx, xv, x0, x1, vv, v0, v1, p00, p01, p11)
-
-
-@inner
 def put_squares(scheme, squares):
     """Work out the three forms of a plan."""
     stick, floor, brace = scheme.stick, scheme.floor, scheme.brace
     forms = (
-        square_form(stick.g, stick.w2, scheme.step),
-        square_form(floor.g, floor.w2, scheme.slip_step),
-        square_form(brace.g, brace.w2, scheme.slip_step),
+        square_form(stick.g, stick.w2, scheme.step, False),
+        square_form(floor.g, floor.w2, scheme.slip_step, False),
+        square_form(brace.g, brace.w2, scheme.slip_step, False),
     )
     for j in range(3):
         for k in range(10):

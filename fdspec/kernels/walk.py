@@ -15,34 +15,24 @@ from fdspec.jit import inlined, inner
 from fdspec.kernels.bounds import forcing
 from fdspec.kernels.crossing import CROSSES, UNCLEAR
 from fdspec.kernels.energy import (
-    BRACE_FORM,
-    FLOOR_FORM,
-    STICK_FORM,
     input_work,
-    loss_at,
     series_work,
     stored_energy,
 )
 from fdspec.kernels.friction import GOES_ON, phase_after_stop, reaction, sliding_kick
-from fdspec.kernels.oscillator import advance, area, expand, square_integral
-from fdspec.kernels.quadrature import SHORT, series_square, short_square
+from fdspec.kernels.oscillator import expand
+from fdspec.kernels.pieces import at_once, part_loss, whole_loss
 from fdspec.kernels.roots import value_slope
 from fdspec.kernels.slip import (
     base_shear,
-    locate_stop,
     search_slip,
-    slip_ahead,
     slip_peaks,
-    slip_verdict,
 )
 from fdspec.kernels.stick import (
-    held_force,
-    locate_slip,
     search_stick,
-    stick_ahead,
     stick_peaks,
-    stick_verdict,
 )
+from fdspec.kernels.traces import floor_acceleration, write_trace
 from fdspec.kernels.types import (
     ANCHOR,
     EVENTS,
@@ -74,32 +64,6 @@ from fdspec.kernels.types import (
     U,
     V,
 )
-
-TRACES = (
-    "displacement",
-    "velocity",
-    "acceleration",
-    "brace_displacement",
-    "brace_velocity",
-    "friction_force",
-    "phase",
-    "slip_travel",
-    "input_energy",
-    "viscous_energy",
-    "friction_energy",
-)
-"""What is written at each output instant, in the order of the columns."""
-
-
-@inlined
-def floor_acceleration(plan, phase, offset, motion):
-    """Absolute acceleration of the floor, m/s2."""
-    if phase == STICK:
-        b = plan.stick
-        return plan.lift * offset - b.g * motion.v - b.w2 * motion.u
-    b = plan.floor
-    push = phase * plan.storey.kinetic_slip_force / plan.storey.floor_mass
-    return -push - b.g * motion.v - b.w2 * motion.u
 
 
 @inlined
@@ -176,110 +140,6 @@ def begin(plan, start, s):
     s[PEAK_DISPLACEMENT] = peaks.displacement
     s[PEAK_VELOCITY] = peaks.velocity
     s[PEAK_SHEAR] = peaks.shear
-
-
-@inner
-def whole_loss(plan, forms, phase, motion, force):
-    """Viscous work (J) on a whole piece."""
-    storey = plan.storey
-    if phase == STICK:
-        return (storey.floor_damping + storey.brace_damping) * square_integral(
-            loss_at(forms, STICK_FORM), motion.u, motion.v, force.p0, force.p1
-        )
-    lost = storey.floor_damping * square_integral(
-        loss_at(forms, FLOOR_FORM), motion.u, motion.v, force.p0, force.p1
-    )
-    if storey.brace_damping > 0.0:
-        lost += storey.brace_damping * square_integral(
-            loss_at(forms, BRACE_FORM), motion.d, motion.e, force.b0, force.b1
-        )
-    return lost
-
-
-@inner
-def part_loss(plan, phase, floor, motion, force, h):
-    """Viscous work (J) on a part of a piece; while slipping the brace has no damping, see `at_once`."""
-    b = plan.stick
-    order = int(plan.stick_order)
-    damping = plan.storey.floor_damping + plan.storey.brace_damping
-    if phase != STICK:
-        b = plan.floor
-        order = int(plan.floor_order)
-        damping = plan.storey.floor_damping
-    if h == 0.0:
-        return 0.0
-    expand(floor, order, motion.u, motion.v, b.g, b.w2, force.p0, force.p1, h)
-    if b.rate * h <= SHORT:
-        return damping * short_square(floor, order, h)
-    return damping * series_square(floor, order, h, 1.0)
-
-
-@inlined
-def at_once(plan, phase, whole, motion, force, offset, kick, h):
-    """What the ends of a piece of length h tell of it.
-
-    Returns the verdict (see `fdspec.kernels.crossing`); the phase that follows where it crosses; how
-    far the piece then reaches, s; the motion there; the integrals of both displacements until there.
-    """
-    storey = plan.storey
-    swung = 0.0
-    if phase == STICK:
-        if whole:
-            u, v = advance(plan.stick_map, motion.u, motion.v, force.p0, force.p1)
-            end = Motion(u, v, u - offset, v)
-            swept = area(plan.stick_map, motion.u, motion.v, force.p0, force.p1)
-        else:
-            end, swept = stick_ahead(plan, motion, force, offset, h)
-        found, side, near = stick_verdict(plan, motion, end, force, offset, h)
-        if found == CROSSES:
-            h, end, swept = locate_slip(plan, motion, force, offset, side, near, h)
-        return found if h >= 0.0 else UNCLEAR, side, h, end, swept, swung
-    swift = storey.brace_mass > 0.0 and plan.brace.w2 > 0.0 and plan.brace.g == 0.0
-    if whole:
-        u, v = advance(plan.floor_map, motion.u, motion.v, force.p0, force.p1)
-        d, e = advance(plan.brace_map, motion.d, motion.e, force.b0, force.b1)
-        end = Motion(u, v, d, e)
-        swept = area(plan.floor_map, motion.u, motion.v, force.p0, force.p1)
-        swung = area(plan.brace_map, motion.d, motion.e, force.b0, force.b1)
-    elif swift:
-        end, swept, swung = slip_ahead(plan, motion, force, h)
-    else:
-        return UNCLEAR, phase, h, motion, 0.0, 0.0
-    found, near = slip_verdict(plan, motion, end, force, phase, kick, h)
-    if found == CROSSES:
-        if not swift:
-            return UNCLEAR, phase, h, end, swept, swung
-        h, end, swept, swung = locate_stop(plan, motion, force, phase, near, h)
-    return found if h >= 0.0 else UNCLEAR, phase, h, end, swept, swung
-
-
-@inner
-def write_trace(plan, floor, brace, n, phase, offset, anchor, travel, so_far, acceleration, rate, h, x, row):
-    """Fill one row (see TRACES) at the fraction x of an expanded piece of length h."""
-    storey = plan.storey
-    u, rise = value_slope(floor, 0, n, x)
-    v = rise / h
-    done, lost = series_work(plan, phase, floor, brace, n, acceleration, rate, h, x, True)
-    if phase == STICK:
-        d = u - offset
-        e = v
-        friction = held_force(plan, u, v, offset)
-    else:
-        d, rise = value_slope(brace, 0, n, x)
-        e = rise / h
-        friction = phase * storey.kinetic_slip_force
-        travel += phase * (u - d - anchor)
-    row[0] = u
-    row[1] = v
-    row[2] = floor_acceleration(plan, phase, offset, Motion(u, v, d, e))
-    row[3] = d
-    row[4] = e
-    row[5] = friction
-    row[6] = phase
-    row[7] = travel
-    row[8] = so_far.input + done
-    row[9] = so_far.viscous + lost
-    row[10] = so_far.release + (storey.kinetic_slip_force * travel if travel > 0.0 else 0.0)
 
 
 @inner

@@ -19,7 +19,7 @@ from fdspec.kernels.oscillator import (
     step_map,
     undamped_ahead,
 )
-from fdspec.kernels.quadrature import SHORT, series_area, series_square, short_square, step_loss
+from fdspec.kernels.quadrature import SHORT, series_area, series_square, short_square, square_form
 
 OSCILLATORS = [
     (0.0, 400.0, 0.03),
@@ -92,7 +92,7 @@ def test_viscous_work(g: float, w2: float, h: float) -> None:
     x, v, p0, p1 = START
     c, d = np.zeros(TERMS), np.zeros(TERMS)
     expand(c, order, x, v, g, w2, p0, p1, h)
-    form = square_integral(step_loss(g, w2, h), *START)
+    form = square_integral(square_form(g, w2, h, True), *START)
     assert series_square(c, order, h, 1.0) == pytest.approx(form, rel=1e-12)
     short = min(1.0, SHORT / max(rate_bound(g, w2) * h, 1e-9))
     expand(d, order, x, v, g, w2, p0, p1, short * h)

@@ -10,6 +10,7 @@ from fdspec.errors import IntegrationError
 from fdspec.kernels import walk as walking
 from fdspec.kernels.oscillator import TERMS
 from fdspec.kernels.plan import RADIANS, plan
+from fdspec.kernels.traces import TRACES
 from fdspec.kernels.types import (
     N_STATE,
     NON_FINITE_STATE,
@@ -51,7 +52,7 @@ def test_a_history_without_end_is_given_up(monkeypatch: pytest.MonkeyPatch) -> N
     s = np.empty(N_STATE)
     series = [np.empty(TERMS) for _ in range(3)]
     walking.begin(scheme, Motion(0.0, 0.0, 0.0, 0.0), s)
-    none = np.empty(0), np.empty(0, np.int64), np.empty((0, len(walking.TRACES)))
+    none = np.empty(0), np.empty(0, np.int64), np.empty((0, len(TRACES)))
     for k in range(200):
         ground = 3.0 * np.sin(0.13 * np.array([k, k + 1.0]))
         rate = (ground[1] - ground[0]) / 0.01
