@@ -6,6 +6,10 @@ from pathlib import Path
 import pytest
 
 import fdspec
+from fdspec.grid import Grid
+from fdspec.measures import study_claims
+from fdspec.measures.claims import verdict_of_claim
+from fdspec.study import STUDY_RECORDS
 
 README = Path(__file__).parents[2] / "README.md"
 
@@ -27,3 +31,27 @@ def test_commands_that_ci_runs_are_marked(name: str) -> None:
 def test_links_lead_somewhere() -> None:
     for target in re.findall(r"\]\(([^)#:]+)\)", README.read_text(encoding="utf-8")):
         assert (README.parent / target).exists(), target
+
+
+def test_what_it_says_of_the_study_is_what_the_claims_give() -> None:
+    rows = re.findall(
+        r"^\| (?:the|at|beyond) .* \| (.*) \|$", README.read_text(encoding="utf-8"), re.MULTILINE
+    )
+    said = [row for row in rows if row != "what comes out"]
+    grid = Grid.study()
+    cube = fdspec.sweep(
+        [fdspec.load_record(name) for name in STUDY_RECORDS],
+        period=grid.period,
+        pretension=grid.pretension,
+        stiffness_ratio=grid.stiffness_ratio,
+        outputs=["peak_acceleration", "elastic_acceleration", "braced_acceleration"],
+        certify=False,
+    )
+    claims = study_claims(cube)
+    assert len(said) == 6
+    for letter, row in zip("abcdef", said, strict=True):
+        assert (
+            verdict_of_claim(claims, letter).removeprefix("holds ") == row.partition(":")[0].partition(",")[0]
+        )
+    assert int((claims.share.sel(part="a") == 1.0).sum()) == 6
+    assert "for six records" in said[0]
