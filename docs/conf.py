@@ -1,10 +1,15 @@
 """Settings of the documentation: pages, notebooks kept as Python files, docstrings, the registry's tables."""
 
+import os
+
 from sphinx.application import Sphinx
 from sphinx.util import logging
 
 import fdspec
 from fdspec import variables
+
+# Kernels inherit it, and would then keep the figures of pyplot to themselves.
+os.environ.pop("MPLBACKEND", None)
 
 project = "fdspec"
 author = "fdspec contributors"
