@@ -29,7 +29,7 @@ FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 Columns = tuple[FloatArray, FloatArray, FloatArray]
 
-SECONDS_PER_SAMPLE: Final = 12e-9
+SECONDS_PER_SAMPLE: Final = 8e-9
 """Core time of one history for each sample of its record, roughly; for plans, not for results."""
 
 BARE: Final = {
