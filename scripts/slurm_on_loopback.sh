@@ -5,7 +5,8 @@
 #     . FOLDER/environment                          then sinfo, sbatch, squeue, scancel speak to it
 #     scripts/slurm_on_loopback.sh stop FOLDER
 #
-# Everything but munge's key and socket lies in FOLDER.  It is no example of a SLURM for users: one machine, no
+# Everything but munge's key and socket lies in FOLDER.  The node offers two processors whatever the machine has, and
+# whatever OMP_NUM_THREADS says, for nproc believes it: the test needs two jobs side by side.  It is no example of a SLURM for users: one machine, no
 # accounting, no limits, everybody is root.
 set -euo pipefail
 
@@ -44,7 +45,8 @@ SchedulerParameters=sched_min_interval=0,bf_interval=1
 SelectType=select/cons_tres
 SelectTypeParameters=CR_Core
 KillWait=1
-NodeName=$host NodeAddr=127.0.0.1 CPUs=$(nproc) State=UNKNOWN
+SlurmdParameters=config_overrides
+NodeName=$host NodeAddr=127.0.0.1 CPUs=2 State=UNKNOWN
 PartitionName=main Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 CONF
     echo "export SLURM_CONF='$folder/slurm.conf'" >"$folder/environment"
