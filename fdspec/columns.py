@@ -31,24 +31,23 @@ def integrate_columns(
     kinetic_slip_force: FloatArray,
     motion: GroundMotion,
     *,
-    energy: bool,
     certify: bool,
     radians: float = RADIANS,
 ) -> tuple[FloatArray, FloatArray]:
     """Integrate frames (m, 6), braced and under each of the slip forces (p,).
 
-    A frame's row: floor mass, damping, stiffness, brace mass, damping, stiffness, SI units.  energy,
-    certify: whether the work of the ground, and the balance of all energies, are wanted.  Returns
-    results of the braced frames (m, len(RESULTS)) and of all slip forces (m, p, len(RESULTS)).
+    A frame's row: floor mass, damping, stiffness, brace mass, damping, stiffness, SI units.  certify:
+    whether the balance of all energies is wanted.  Returns results of the braced frames
+    (m, len(RESULTS)) and of all slip forces (m, p, len(RESULTS)).
     """
     never = np.full((frames.shape[0], 2), (np.inf, 0.0))
-    braced, held = _integrate(np.hstack([frames, never]), 0.0, motion, energy, certify, radians)
+    braced, held = _integrate(np.hstack([frames, never]), 0.0, motion, certify, radians)
     results = np.repeat(braced[:, np.newaxis], slip_force.size, axis=1)
     column, force = np.nonzero(slip_force <= held[:, np.newaxis])
     slipping = np.column_stack([frames[column], slip_force[force], kinetic_slip_force[force]])
     # Neighbours should slip about as much: where none of them does, only stick is computed.
     likeness = slip_force[force] / np.maximum(held[column], np.finfo(float).tiny)
-    results[column, force], _ = _integrate(slipping, likeness, motion, energy, certify, radians)
+    results[column, force], _ = _integrate(slipping, likeness, motion, certify, radians)
     return braced, results
 
 
@@ -56,7 +55,6 @@ def _integrate(
     storeys: FloatArray,
     likeness: FloatArray | float,
     motion: GroundMotion,
-    energy: bool,
     certify: bool,
     radians: float,
 ) -> tuple[FloatArray, FloatArray]:
@@ -77,7 +75,6 @@ def _integrate(
             motion.acceleration,
             motion.dt,
             int(parts[lanes[0]]),
-            energy,
             certify,
             out,
             reached,

@@ -161,8 +161,7 @@ def sweep(
         raise InvalidInput(f"outputs {', '.join(strain)} need method 'exact', got {other.name!r}")
     n_sr, n_f, n_t = grid.shape
     seconds = [_core_seconds(motion.n, grid, certify) for motion in motions]
-    energy = certify or bool({"input_energy", "energy_error"} & set(wanted))
-    run = partial(_run_columns, grid, energy, certify, bool(strain), other)
+    run = partial(_run_columns, grid, certify, bool(strain), other)
     fan = partial(
         fan_out,
         motions=motions,
@@ -252,7 +251,6 @@ def _frames(grid: Grid, columns: IntArray) -> FloatArray:
 
 def _run_columns(
     grid: Grid,
-    energy: bool,
     certify: bool,
     strain: bool,
     other: Method | None,
@@ -268,14 +266,12 @@ def _run_columns(
     frames = _frames(grid, columns)
     exact = slice(None) if other is None else slice(0)
     slip_force, kinetic = grid.slip_force, grid.kinetic_slip_force
-    braced, results = integrate_columns(
-        frames, slip_force[exact], kinetic[exact], motion, energy=energy, certify=certify
-    )
+    braced, results = integrate_columns(frames, slip_force[exact], kinetic[exact], motion, certify=certify)
     if other is not None:
         results = integrate_by_method(other, frames, slip_force, kinetic, motion)
     bare = frames[columns < grid.period.size].copy()  # the first stiffness ratio's pairs stand for all
     bare[:, 3:] = 0.0
-    free, _ = integrate_columns(bare, np.empty(0), np.empty(0), motion, energy=False, certify=False)
+    free, _ = integrate_columns(bare, np.empty(0), np.empty(0), motion, certify=False)
     if strain:
         from fdspec.strain import strain_of_columns
 

@@ -289,10 +289,10 @@ def _run_storey(
 
     force, kinetic = slip_force[items], kinetic_slip_force[items]
     rows = frame[np.newaxis]
-    _, found = integrate_columns(rows, force, kinetic, motion, energy="input_energy" in needs, certify=False)
+    _, found = integrate_columns(rows, force, kinetic, motion, certify=False)
     table = np.full((len(RESPONSES), items.size), np.nan)
     for row, name in enumerate(RESPONSES):
-        if name in RESULTS and (name in needs or name != "input_energy"):
+        if name in RESULTS:
             table[row] = found[0, :, RESULTS.index(name)]
     table[RESPONSES.index("residual_displacement")] = np.abs(
         found[0, :, RESULTS.index("residual_displacement")]

@@ -17,20 +17,15 @@ from fdspec.kernels.packed import (
     HELD,
     N_ROWS,
     WIDTH,
-    accept_lanes,
-    alerted,
     is_calm,
-    loss_lanes,
     put_lane,
     put_state,
     rest_lane,
-    slip_lanes,
     start_lane,
-    stick_lanes,
     take_state,
-    work_lanes,
 )
 from fdspec.kernels.plan import plan, steps_per_sample
+from fdspec.kernels.quiet import loss_lanes, slip_lanes, stick_lanes
 from fdspec.kernels.sdof import finish
 from fdspec.kernels.shelf import put_numbers, put_plan, take_plan
 from fdspec.kernels.types import N_STATE, OK, PHASE, STATUS, STICK, Storey
@@ -66,16 +61,15 @@ def prepare(storeys, dt, radians, certify, parts, shelf, forms, stride):
         types.float64,
         types.int64,
         types.boolean,
-        types.boolean,
         float2d,
         float1d,
     )
 )
-def run_lanes(shelf, forms, stride, ground, dt, parts, energy, certify, results, held):
+def run_lanes(shelf, forms, stride, ground, dt, parts, certify, results, held):
     """Integrate up to WIDTH histories from rest.
 
     shelf, forms, stride: their rows from `prepare`; parts: the steps a sample that all of them take.
-    energy, certify: whether the work of the ground, and the balance of all energies, are wanted.
+    certify: whether the balance of all energies is wanted.
     Filled: results (count, len(RESULTS)); held (count,), the largest reaction (N) for which the bounds
     leave room while the storey never slips.
     """
@@ -99,27 +93,24 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, energy, certify, results,
         rate = (ground[i + 1] - ground[i]) / dt
         for j in range(parts):
             start = ground[i] + rate * (j * step)
+            to_walk = 0
+            to_keep = 0
             if slipping < WIDTH:
-                stick_lanes(p, step, start, rate)
+                to_walk, to_keep = stick_lanes(p, step, start, rate)
             if slipping > 0:
-                slip_lanes(p, step, start, rate)
-            if energy:
-                work_lanes(p, step, start, rate)
+                walks, keeps = slip_lanes(p, step, start, rate)
+                to_walk |= walks
+                to_keep |= keeps
             if certify:
-                loss_lanes(p, start, rate)
-            to_walk, to_keep = alerted(p)
+                loss_lanes(p, start, rate, to_walk)
             if to_walk | to_keep == 0:
-                accept_lanes(p, energy, certify)
                 continue
             for lane in range(count):
-                if to_walk >> lane & 1:
-                    take_state(p, lane, states[lane])
-                elif to_keep >> lane & 1:
+                if to_keep >> lane & 1:
                     keep_crests(p, lane, take_plan(shelf, lane), crests, start, rate, floor, search)
-            accept_lanes(p, energy, certify)
-            for lane in range(count):
-                if to_walk >> lane & 1:
+                elif to_walk >> lane & 1:
                     s = states[lane]
+                    take_state(p, lane, s)
                     before = s[PHASE] != STICK
                     walk(
                         take_plan(shelf, lane),
@@ -128,7 +119,6 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, energy, certify, results,
                         0.0,
                         start,
                         rate,
-                        energy,
                         certify,
                         is_calm(p, lane, s),
                         floor,

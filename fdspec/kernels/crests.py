@@ -14,16 +14,19 @@ from fdspec.kernels.packed import (
     CREST_Q,
     CREST_U,
     CREST_V,
-    END_A,
-    END_U,
-    END_V,
+    FROM_U,
+    FROM_V,
     LIFT,
     PUSH_FLOOR,
     WIDTH,
+    at,
 )
 from fdspec.kernels.types import (
     OFFSET,
     PEAK_ACCELERATION,
+    PEAK_DISPLACEMENT,
+    PEAK_SHEAR,
+    PEAK_VELOCITY,
     PHASE,
     STICK,
     Force,
@@ -42,22 +45,22 @@ N_CREST = 9
 
 
 @inner
-def least_peak(p, tops, quantity, lane, slips, mass):
-    """The peak that a bound must pass to matter; ``tops`` is the row where a lane's peaks begin."""
-    top = p[(tops + quantity) * WIDTH + lane]
+def least_peak(p, quantity, lane, slips, mass):
+    """The peak that a bound must pass to matter."""
+    top = at(p, PEAK_ACCELERATION + quantity, lane)
     if quantity == 0 and slips == 0.0:
-        return min(top, p[(tops + 3) * WIDTH + lane] / mass)
+        return min(top, at(p, PEAK_SHEAR, lane) / mass)
     return top
 
 
 @inner
-def settle(p, tops, lane, plan, crest, floor, search):
+def settle(p, lane, plan, crest, floor, search):
     """Search a kept step and put the lane's peaks right."""
     peaks = Peaks(
-        p[tops * WIDTH + lane],
-        p[(tops + 1) * WIDTH + lane],
-        p[(tops + 2) * WIDTH + lane],
-        p[(tops + 3) * WIDTH + lane],
+        at(p, PEAK_ACCELERATION, lane),
+        at(p, PEAK_DISPLACEMENT, lane),
+        at(p, PEAK_VELOCITY, lane),
+        at(p, PEAK_SHEAR, lane),
     )
     branch, mass, order = plan.stick, plan.mass, plan.stick_order
     if crest[SLIPS] != 0.0:
@@ -76,37 +79,37 @@ def settle(p, tops, lane, plan, crest, floor, search):
         plan.step,
         peaks,
     )
-    p[tops * WIDTH + lane] = peaks.acceleration
-    p[(tops + 1) * WIDTH + lane] = peaks.displacement
-    p[(tops + 2) * WIDTH + lane] = peaks.velocity
-    p[(tops + 3) * WIDTH + lane] = peaks.shear
+    p[PEAK_ACCELERATION * WIDTH + lane] = peaks.acceleration
+    p[PEAK_DISPLACEMENT * WIDTH + lane] = peaks.displacement
+    p[PEAK_VELOCITY * WIDTH + lane] = peaks.velocity
+    p[PEAK_SHEAR * WIDTH + lane] = peaks.shear
     crest[BOUND] = 0.0
 
 
 @inner
 def keep_crests(p, lane, plan, crests, ground, rate, floor, search):
-    """Keep a quiet step of a lane for each quantity whose peak it may hold."""
-    phase = p[PHASE * WIDTH + lane]
+    """Keep the quiet step that a lane has just taken for each quantity whose peak it may hold."""
+    phase = at(p, PHASE, lane)
     slips = 0.0 if phase == STICK else 1.0
     for quantity in range(3):
-        bound = p[QUANTITIES[quantity] * WIDTH + lane]
-        if bound <= least_peak(p, END_A, quantity, lane, slips, plan.mass):
+        bound = at(p, QUANTITIES[quantity], lane)
+        if bound <= least_peak(p, quantity, lane, slips, plan.mass):
             continue
         crest = crests[lane, quantity]
-        if crest[BOUND] > least_peak(p, END_A, quantity, lane, crest[SLIPS], plan.mass):
-            settle(p, END_A, lane, plan, crest, floor, search)
-            if bound <= least_peak(p, END_A, quantity, lane, slips, plan.mass):
+        if crest[BOUND] > least_peak(p, quantity, lane, crest[SLIPS], plan.mass):
+            settle(p, lane, plan, crest, floor, search)
+            if bound <= least_peak(p, quantity, lane, slips, plan.mass):
                 continue
         crest[BOUND] = bound
         crest[SLIPS] = slips
-        crest[START_U] = p[U * WIDTH + lane]
-        crest[START_V] = p[V * WIDTH + lane]
-        crest[STOP_U] = p[END_U * WIDTH + lane]
-        crest[STOP_V] = p[END_V * WIDTH + lane]
+        crest[START_U] = at(p, FROM_U, lane)
+        crest[START_V] = at(p, FROM_V, lane)
+        crest[STOP_U] = at(p, U, lane)
+        crest[STOP_V] = at(p, V, lane)
         if phase == STICK:
-            crest[BASE] = p[LIFT * WIDTH + lane] * p[OFFSET * WIDTH + lane]
+            crest[BASE] = at(p, LIFT, lane) * at(p, OFFSET, lane)
         else:
-            crest[BASE] = -phase * p[PUSH_FLOOR * WIDTH + lane]
+            crest[BASE] = -phase * at(p, PUSH_FLOOR, lane)
         crest[GROUND] = ground
         crest[RATE] = rate
 
@@ -116,5 +119,5 @@ def settle_crests(p, lane, plan, crests, floor, search):
     """Search the kept steps that still matter at the end."""
     for quantity in range(3):
         crest = crests[lane, quantity]
-        if crest[BOUND] > least_peak(p, PEAK_ACCELERATION, quantity, lane, crest[SLIPS], plan.mass):
-            settle(p, PEAK_ACCELERATION, lane, plan, crest, floor, search)
+        if crest[BOUND] > least_peak(p, quantity, lane, crest[SLIPS], plan.mass):
+            settle(p, lane, plan, crest, floor, search)

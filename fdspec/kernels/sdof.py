@@ -143,7 +143,6 @@ def history(
             a0,
             rate,
             True,
-            True,
             False,
             floor,
             brace,

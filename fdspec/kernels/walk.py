@@ -150,7 +150,6 @@ def walk(
     at,
     a0,
     rate,
-    energy,
     certify,
     calm,
     floor,
@@ -166,8 +165,8 @@ def walk(
     """Take the state ``s`` over one step; return the number of output rows written so far.
 
     forms: the losses of the plan, (N_FORMS,), read where certify.  at: time of the step's start, s;
-    a0, rate: ground acceleration there (m/s2) and its rate (m/s3).  energy, certify: whether the work of
-    the ground, and of the viscous dampers, is kept.  calm: whether it is known that no peak is passed
+    a0, rate: ground acceleration there (m/s2) and its rate (m/s3).  certify: whether the work of the viscous
+    dampers is kept.  calm: whether it is known that no peak is passed
     before the phase changes.  floor, brace, search: room for series, (TERMS,).  times, phases: changes of
     phase, as far as they have room.  traces (m, len(TRACES)): row k is
     written at k dt_out once that is not later than ``reach`` past what has been walked; with m = 0
@@ -209,8 +208,7 @@ def walk(
         if found != UNCLEAR:
             happens = found == CROSSES
             h = length
-            if energy:
-                s[INPUT] += input_work(plan, phase, motion, end, swept, swung, acceleration, rate, h)
+            s[INPUT] += input_work(plan, phase, motion, end, swept, swung, acceleration, rate, h)
             if certify and whole and not happens:
                 s[VISCOUS] += whole_loss(plan, forms, phase, motion, force)
             elif certify:
@@ -251,12 +249,9 @@ def walk(
                         traces[written],
                     )
                     written += 1
-            if energy:
-                done, lost = series_work(
-                    plan, phase, floor, brace, order, acceleration, rate, h, share, certify
-                )
-                s[INPUT] += done
-                s[VISCOUS] += lost
+            done, lost = series_work(plan, phase, floor, brace, order, acceleration, rate, h, share, certify)
+            s[INPUT] += done
+            s[VISCOUS] += lost
             u, rise = value_slope(floor, 0, order, share)
             v = rise / h
             d = u - offset

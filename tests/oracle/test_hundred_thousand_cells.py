@@ -35,7 +35,7 @@ def results_of(cell: Cell) -> dict[str, float]:
     ]
     motion = fdspec.GroundMotion(cell.acceleration, cell.dt, name="cell")
     forces = np.array([cell.slip_force]), np.array([cell.kinetic_slip_force])
-    _, results = integrate_columns(np.array([frame]), *forces, motion, energy=True, certify=True)
+    _, results = integrate_columns(np.array([frame]), *forces, motion, certify=True)
     return dict(zip(RESULTS, results[0, 0].tolist(), strict=True))
 
 
