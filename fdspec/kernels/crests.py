@@ -8,6 +8,8 @@ and it is searched.
 
 from __future__ import annotations
 
+import numpy as np
+
 from fdspec.jit import inner
 from fdspec.kernels.bounds import floor_peaks
 from fdspec.kernels.packed import (
@@ -36,7 +38,7 @@ from fdspec.kernels.types import (
     V,
 )
 
-QUANTITIES = (CREST_Q, CREST_U, CREST_V)
+QUANTITIES = np.array([CREST_Q, CREST_U, CREST_V])
 """Rows of the bounds: acceleration (and base shear, its multiple while sticking), displacement, velocity."""
 
 BOUND, SLIPS, START_U, START_V, STOP_U, STOP_V, BASE, GROUND, RATE = range(9)

@@ -10,6 +10,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from fdspec.jit import inlined, inner
 
 SERIES_RADIANS = 1.0
@@ -20,8 +22,8 @@ SIXTH = 1.0 / 6.0
 TERMS = 30
 """Length of coefficient arrays: order 28 is rounding at 2 radians, the largest step searched."""
 
-INVERSE = (0.0, *(1.0 / k for k in range(1, TERMS + 1)))
-"""1/k: a division costs as much as four products."""
+INVERSE = np.array([0.0, *(1.0 / k for k in range(1, TERMS + 1))])
+"""1/k: a division costs as much as four products; an array, for a tuple would be taken apart by jumps."""
 
 
 class StepMap(NamedTuple):

@@ -9,12 +9,12 @@ from fdspec.kernels.oscillator import INVERSE, SquareForm, step_map
 from fdspec.kernels.roots import value_slope
 
 _points, _weights = np.polynomial.legendre.leggauss(10)
-NODES = tuple(float(x) for x in 0.5 * (1.0 + _points))
-WEIGHTS = tuple(float(w) for w in 0.5 * _weights)
+NODES = 0.5 * (1.0 + _points)
+WEIGHTS = 0.5 * _weights
 
 _points, _weights = np.polynomial.legendre.leggauss(5)
-FEW_NODES = tuple(float(x) for x in 0.5 * (1.0 + _points))
-FEW_WEIGHTS = tuple(float(w) for w in 0.5 * _weights)
+FEW_NODES = 0.5 * (1.0 + _points)
+FEW_WEIGHTS = 0.5 * _weights
 
 SHORT = 0.3
 """Phase (rad) over which the few nodes are exact to rounding."""
