@@ -93,12 +93,11 @@ def largest_acceleration(floor, search, n, h, g, w2, base, best):
 
 
 @inlined
-def floor_peaks(b, base, mass, floor, search, n, share, start, end, force, h, peaks):
-    """Peaks over a piece in which the oscillator ``b`` carries the floor: its end, and extrema inside.
+def floor_bounds(b, base, mass, start, end, force, h, peaks):
+    """Peaks with the end of a piece, the acceleration that matters inside, and what may be passed there.
 
-    Absolute acceleration is base - g v - w2 u; base shear is ``mass`` times it (0: not by this rule).
-    ``share`` tells what ``floor`` holds: 0 nothing, else the series of a piece of which this one
-    is that part.  An extremum is looked for only where bounds leave room for one.
+    Absolute acceleration is base - g v - w2 u; base shear is ``mass`` times it (0: not by this rule).  What
+    may be passed: displacement, velocity, acceleration.
     """
     a0 = relative_acceleration(b, start.u, start.v, force.p0)
     a1 = relative_acceleration(b, end.u, end.v, force.p0 + force.p1 * h)
@@ -122,6 +121,18 @@ def floor_peaks(b, base, mass, floor, search, n, share, start, end, force, h, pe
         )
         > least
     )
+    return Peaks(acceleration, displacement, velocity, shear), least, see_u, see_v, see_q
+
+
+@inlined
+def floor_peaks(b, base, mass, floor, search, n, share, start, end, force, h, peaks):
+    """Peaks over a piece in which the oscillator ``b`` carries the floor: its end, and extrema inside.
+
+    base, mass: as in `floor_bounds`.  ``share`` tells what ``floor`` holds: 0 nothing, else the series of a
+    piece of which this one is that part.  An extremum is looked for only where bounds leave room for one.
+    """
+    ends, least, see_u, see_v, see_q = floor_bounds(b, base, mass, start, end, force, h, peaks)
+    acceleration, displacement, velocity, shear = ends
     if see_u or see_v or see_q:
         ready(floor, n, share, start.u, start.v, b.g, b.w2, force.p0, force.p1, h)
         if see_u:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from fdspec.jit import inlined, inner
+from fdspec.jit import inlined
 from fdspec.kernels.roots import clears
 
 CLEAR, CROSSES, UNCLEAR = 0, 1, 2
@@ -57,23 +57,17 @@ class Rates(NamedTuple):
 @inlined
 def verdict(course):
     """Whether the quantity stays positive on the piece, crosses zero once, or neither is sure."""
-    if not course.start > 0.0:
-        return UNCLEAR
-    if clears(course.start, course.start_rise, course.end, course.end_rise, course.fourth):
-        return CLEAR
     margin = course.fourth / 8.0
-    if max(course.start_bend, course.end_bend) + margin < 0.0:
-        return CLEAR if course.end > 0.0 else CROSSES
-    if min(course.start_bend, course.end_bend) - margin > 0.0:
-        if course.end <= 0.0:
-            return CROSSES
-        if course.start_rise >= 0.0 or course.end_rise <= 0.0:
-            return CLEAR
-    if course.end <= 0.0 and clears(
-        -course.start_rise, -course.start_bend, -course.end_rise, -course.end_bend, course.fifth
-    ):
-        return CROSSES
-    return UNCLEAR
+    bends_down = max(course.start_bend, course.end_bend) + margin < 0.0
+    bends_up = min(course.start_bend, course.end_bend) - margin > 0.0
+    falls = clears(-course.start_rise, -course.start_bend, -course.end_rise, -course.end_bend, course.fifth)
+    clear = clears(course.start, course.start_rise, course.end, course.end_rise, course.fourth)
+    turns_outside = (course.start_rise >= 0.0) | (course.end_rise <= 0.0)
+    ends_above = course.end > 0.0
+    stays = clear | (ends_above & (bends_down | (bends_up & turns_outside)))
+    crosses = (not ends_above) & (bends_down | bends_up | falls)
+    sure = CROSSES if crosses else CLEAR
+    return sure if (course.start > 0.0) & (stays | crosses) else UNCLEAR
 
 
 @inlined
@@ -84,24 +78,30 @@ def leaves_zero(rise, bend, twist, fourth, noise):
     bend may be off by.
     """
     rest = SIXTH * min(0.0, twist) - R_24 * fourth
-    return 0.5 * (bend - noise) + rest > 0.0 or rise + 0.5 * min(0.0, bend - noise) + rest > 0.0
+    return (0.5 * (bend - noise) + rest > 0.0) | (rise + 0.5 * min(0.0, bend - noise) + rest > 0.0)
 
 
-@inner
-def guess(course):
-    """Fraction of the piece at which the cubic through both ends crosses zero, nearly."""
-    drop = course.end - course.start
-    square = 3.0 * drop - 2.0 * course.start_rise - course.end_rise
-    cube = course.start_rise + course.end_rise - 2.0 * drop
-    x = course.start / -drop
+@inlined
+def guess(start, start_rise, end, end_rise):
+    """Fraction of the piece at which the cubic through values and rises at both ends crosses zero, nearly."""
+    drop = end - start
+    square = 3.0 * drop - 2.0 * start_rise - end_rise
+    cube = start_rise + end_rise - 2.0 * drop
+    x = start / -drop
+    inside = True
     for _ in range(2):
-        height = course.start + x * (course.start_rise + x * (square + x * cube))
-        slope = course.start_rise + x * (2.0 * square + 3.0 * x * cube)
+        height = start + x * (start_rise + x * (square + x * cube))
+        slope = start_rise + x * (2.0 * square + 3.0 * x * cube)
         step = x - height / slope
-        if not 0.0 <= step <= 1.0:
-            break
-        x = step
+        inside &= (step >= 0.0) & (step <= 1.0)
+        x = step if inside else x
     return x
+
+
+@inlined
+def guess_of(course):
+    """Fraction of the piece at which the quantity crosses zero, nearly."""
+    return guess(course.start, course.start_rise, course.end, course.end_rise)
 
 
 @inlined

@@ -26,6 +26,17 @@ INVERSE = np.array([0.0, *(1.0 / k for k in range(1, TERMS + 1))])
 """1/k: a division costs as much as four products; an array, for a tuple would be taken apart by jumps."""
 
 
+S_3, S_5, S_7, S_9, S_11, S_13, S_15 = ((-1.0) ** k / math.factorial(2 * k + 1) for k in range(1, 8))
+C_2, C_4, C_6, C_8, C_10, C_12, C_14 = ((-1.0) ** k / math.factorial(2 * k) for k in range(1, 8))
+"""Coefficients of sine and cosine."""
+
+MOST = 21
+"""Order of the longest series that is written out for lanes: that of a radian."""
+
+SHORT_ANGLE = 0.55
+"""Angle (rad) up to which sine and cosine are summed by their series."""
+
+
 class StepMap(NamedTuple):
     """x, velocity v and the integral of x at a step's end, linear in x, v, p0, p1 at its start."""
 
@@ -203,17 +214,49 @@ def ahead(x, v, g, w2, p0, p1, h, n):
 
 
 @inlined
+def ahead_in_lane(x, v, g, w2, p0, p1, h, n):
+    """The same numbers as `ahead` for an order of at most MOST, without a loop whose end is not known."""
+    gh = g * h
+    wh = w2 * h * h
+    start = v * h
+    second = 0.5 * (p0 * h * h - gh * start - wh * x)
+    third = (p1 * h * h * h - gh * 2.0 * second - wh * start) * SIXTH
+    end = x + start + second + third
+    slope = start + 2.0 * second + 3.0 * third
+    area = x + 0.5 * start + INVERSE[3] * second + 0.25 * third
+    older = second
+    old = third
+    for k in range(4, MOST + 1):
+        term = -(gh * INVERSE[k] * old + wh * (INVERSE[k] * INVERSE[k - 1]) * older)
+        term = term if k <= n else 0.0
+        end += term
+        slope += k * term
+        area += INVERSE[k + 1] * term
+        older = old
+        old = term
+    return end, slope / h, area * h
+
+
+@inlined
+def sine_cosine(x):
+    """Sine and cosine of an angle of at most SHORT_ANGLE, to rounding, without a call."""
+    y = x * x
+    sine = x + x * y * (S_3 + y * (S_5 + y * (S_7 + y * (S_9 + y * (S_11 + y * (S_13 + y * S_15))))))
+    cosine = 1.0 + y * (C_2 + y * (C_4 + y * (C_6 + y * (C_8 + y * (C_10 + y * (C_12 + y * C_14))))))
+    return sine, cosine
+
+
+@inlined
 def undamped_ahead(x, v, omega, slowness, p0, p1, h):
     """The same for g = 0 in closed form; half angles leave no cancellation beyond that of p1's share.
 
     slowness: 1 / omega, s.
     """
-    half = 0.5 * omega * h
-    sine = math.sin(half)
+    sine, cosine = sine_cosine(0.5 * omega * h)
     w2 = omega * omega
     drift = slowness * slowness
     rise = 2.0 * sine * sine * drift
-    sine *= 2.0 * math.cos(half) * slowness
+    sine *= 2.0 * cosine * slowness
     late = (h - sine) * drift
     pull = p0 - w2 * x
     end = x + v * sine + pull * rise + p1 * late

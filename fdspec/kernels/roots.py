@@ -91,7 +91,7 @@ def clears(start, start_rise, end, end_rise, fourth):
     Values at both ends, slopes times the step, and a bound on the fourth derivative times step^4.
     """
     inside = min(start + start_rise * THIRD, end - end_rise * THIRD)
-    return start > 0.0 and end > 0.0 and inside >= fourth * TAIL
+    return (start > 0.0) & (end > 0.0) & (inside >= fourth * TAIL)
 
 
 @inner

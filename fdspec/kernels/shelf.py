@@ -7,7 +7,8 @@ from fdspec.kernels.oscillator import StepMap
 from fdspec.kernels.plan import Branch, Plan
 from fdspec.kernels.types import Storey
 
-_STOREY, _STICK, _FLOOR, _BRACE, _SCALARS, STICK_MAP, FLOOR_MAP, BRACE_MAP = 0, 8, 13, 18, 23, 34, 46, 58
+_STOREY, STICK_BRANCH, FLOOR_BRANCH, BRACE_BRANCH, SCALARS = 0, 8, 13, 18, 23
+STICK_MAP, FLOOR_MAP, BRACE_MAP = 34, 46, 58
 """Places of a plan's parts in its row."""
 
 N_SHELF = 70
@@ -53,9 +54,9 @@ def map_at(shelf, i, at):
 def put_plan(shelf, i, plan):
     """Put a plan away."""
     put_numbers(shelf, i, _STOREY, plan.storey)
-    put_numbers(shelf, i, _STICK, plan.stick)
-    put_numbers(shelf, i, _FLOOR, plan.floor)
-    put_numbers(shelf, i, _BRACE, plan.brace)
+    put_numbers(shelf, i, STICK_BRANCH, plan.stick)
+    put_numbers(shelf, i, FLOOR_BRANCH, plan.floor)
+    put_numbers(shelf, i, BRACE_BRANCH, plan.brace)
     scalars = (
         plan.mass,
         plan.hold_u,
@@ -69,7 +70,7 @@ def put_plan(shelf, i, plan):
         plan.slip_order,
         plan.floor_order,
     )
-    put_numbers(shelf, i, _SCALARS, scalars)
+    put_numbers(shelf, i, SCALARS, scalars)
     put_numbers(shelf, i, STICK_MAP, plan.stick_map)
     put_numbers(shelf, i, FLOOR_MAP, plan.floor_map)
     put_numbers(shelf, i, BRACE_MAP, plan.brace_map)
@@ -78,7 +79,7 @@ def put_plan(shelf, i, plan):
 @inlined
 def take_plan(shelf, i):
     """Take a plan up again."""
-    at = _SCALARS
+    at = SCALARS
     return Plan(
         Storey(
             shelf[i, 0],
@@ -90,9 +91,9 @@ def take_plan(shelf, i):
             shelf[i, 6],
             shelf[i, 7],
         ),
-        branch_at(shelf, i, _STICK),
-        branch_at(shelf, i, _FLOOR),
-        branch_at(shelf, i, _BRACE),
+        branch_at(shelf, i, STICK_BRANCH),
+        branch_at(shelf, i, FLOOR_BRANCH),
+        branch_at(shelf, i, BRACE_BRANCH),
         shelf[i, at],
         shelf[i, at + 1],
         shelf[i, at + 2],

@@ -15,7 +15,7 @@ from fdspec.kernels.crossing import (
     SETTLED,
     UNCLEAR,
     Course,
-    guess,
+    guess_of,
     leaves_zero,
     nearby,
     rates_of,
@@ -42,10 +42,10 @@ def brace_fourths(plan, motion, b, force, h):
 
 
 @inlined
-def slip_verdict(plan, start, end, force, phase, kick, h):
-    """Whether sliding goes on over the piece, comes to zero once, or neither is sure.
+def slip_course(plan, start, end, force, phase, kick, h):
+    """The sliding velocity over the piece, and whether a slip that begins with it surely leaves zero.
 
-    Returned with the verdict: after how long it comes to zero, nearly (s).  ``kick`` as in `search_slip`.
+    ``kick`` as in `search_slip`.
     """
     f = plan.floor
     b = plan.brace
@@ -58,11 +58,9 @@ def slip_verdict(plan, start, end, force, phase, kick, h):
     _, fourth_v = floor_fourths(f, start.v, a0, force.p1, h)
     _, fourth_e = brace_fourths(plan, start, b0, force, h)
     fourth = fourth_v + fourth_e
-    if kick >= 0.0:
-        twist = b.g * k0 + b.w2 * b0 - f.g * j0 - f.w2 * a0
-        noise = NOISE * h * h * (abs(j0) + abs(k0))
-        leaves = leaves_zero(h * kick, phase * h * h * (j0 - k0), phase * h * h * h * twist, fourth, noise)
-        return CLEAR if leaves else UNCLEAR, 0.0
+    twist = b.g * k0 + b.w2 * b0 - f.g * j0 - f.w2 * a0
+    noise = NOISE * h * h * (abs(j0) + abs(k0))
+    leaves = leaves_zero(h * kick, phase * h * h * (j0 - k0), phase * h * h * h * twist, fourth, noise)
     course = Course(
         phase * (start.v - start.e),
         phase * h * (a0 - b0),
@@ -73,8 +71,19 @@ def slip_verdict(plan, start, end, force, phase, kick, h):
         fourth,
         fourth * max(f.rate, b.rate) * h,
     )
-    found = verdict(course)
-    return found, h * guess(course) if found == CROSSES else 0.0
+    return course, leaves
+
+
+@inlined
+def slip_verdict(plan, start, end, force, phase, kick, h):
+    """Whether sliding goes on over the piece, comes to zero once, or neither is sure.
+
+    Returned with the verdict: after how long it comes to zero, nearly (s).  ``kick`` as in `search_slip`.
+    """
+    course, leaves = slip_course(plan, start, end, force, phase, kick, h)
+    begins = CLEAR if leaves else UNCLEAR
+    found = begins if kick >= 0.0 else verdict(course)
+    return found, h * guess_of(course) if found == CROSSES else 0.0
 
 
 @inlined
@@ -88,6 +97,16 @@ def slip_ahead(plan, start, force, t):
     b = plan.brace
     d, e, swung = undamped_ahead(start.d, start.e, b.rate, b.slowness, force.b0, force.b1, t)
     return Motion(u, v, d, e), swept, swung
+
+
+@inlined
+def step_to_stop(r, q, phase):
+    """The sliding velocity at an instant, and what `step_to_zero` makes of it."""
+    slide = phase * (r.v - q.v)
+    later, last = step_to_zero(
+        slide, phase * (r.a - q.a), phase * (r.j - q.j), phase * (r.s - q.s), phase * (r.c - q.c)
+    )
+    return slide, later, last
 
 
 @inner
@@ -105,10 +124,7 @@ def locate_stop(plan, start, force, phase, t, h):
         motion, swept, swung = slip_ahead(plan, start, force, t)
         r = rates_of(motion.u, motion.v, f.g, f.w2, force.p0 + force.p1 * t, force.p1)
         q = rates_of(motion.d, motion.e, 0.0, b.w2, force.b0 + force.b1 * t, force.b1)
-        slide = phase * (r.v - q.v)
-        later, last = step_to_zero(
-            slide, phase * (r.a - q.a), phase * (r.j - q.j), phase * (r.s - q.s), phase * (r.c - q.c)
-        )
+        slide, later, last = step_to_stop(r, q, phase)
         if slide > 0.0:
             low = t
         else:
@@ -153,8 +169,8 @@ def base_shear(storey, motion):
 
 
 @inlined
-def slip_peaks(plan, floor, brace, search, n, share, start, end, force, phase, h, peaks):
-    """Peaks over a slip piece: the floor's, and that of the base shear, in which the brace rings."""
+def shear_bounds(plan, start, end, force, h, peak):
+    """Largest base shear at the end of a slip piece, and whether it may be passed inside."""
     storey = plan.storey
     f = plan.floor
     b = plan.brace
@@ -167,17 +183,25 @@ def slip_peaks(plan, floor, brace, search, n, share, start, end, force, phase, h
     fourth_d, fourth_e = brace_fourths(plan, start, b0, force, h)
     s0 = base_shear(storey, start)
     s1 = base_shear(storey, end)
-    shear = max(peaks.shear, abs(s1))
-    see_s = (
-        crest(
-            s0,
-            h * (k * start.v + c * a0 + kd * start.e + cd * b0),
-            s1,
-            h * (k * end.v + c * a1 + kd * end.e + cd * b1),
-            k * fourth_u + c * fourth_v + kd * fourth_d + cd * fourth_e,
-        )
-        > shear
+    inside = crest(
+        s0,
+        h * (k * start.v + c * a0 + kd * start.e + cd * b0),
+        s1,
+        h * (k * end.v + c * a1 + kd * end.e + cd * b1),
+        k * fourth_u + c * fourth_v + kd * fourth_d + cd * fourth_e,
     )
+    shear = max(peak, abs(s1))
+    return shear, inside > shear
+
+
+@inlined
+def slip_peaks(plan, floor, brace, search, n, share, start, end, force, phase, h, peaks):
+    """Peaks over a slip piece: the floor's, and that of the base shear, in which the brace rings."""
+    storey = plan.storey
+    f = plan.floor
+    b = plan.brace
+    k, c, kd, cd = storey.floor_stiffness, storey.floor_damping, storey.brace_stiffness, storey.brace_damping
+    shear, see_s = shear_bounds(plan, start, end, force, h, peaks.shear)
     if see_s:
         ready(floor, n, share, start.u, start.v, f.g, f.w2, force.p0, force.p1, h)
         ready(brace, n, share, start.d, start.e, b.g, b.w2, force.b0, force.b1, h)

@@ -14,7 +14,7 @@ from fdspec.kernels.crossing import (
     SETTLED,
     UNCLEAR,
     Course,
-    guess,
+    guess_of,
     nearby,
     rates_of,
     step_to_zero,
@@ -32,10 +32,10 @@ def held_force(plan, u, v, offset):
 
 
 @inlined
-def stick_verdict(plan, start, end, force, offset, h):
-    """Whether the reaction stays within the slip force on the piece, reaches it once, or neither is sure.
+def stick_course(plan, start, end, force, offset, h):
+    """What the reaction lacks to the slip force on the side to which it tends over the piece.
 
-    Returned with the verdict: the side on which it is reached, and after how long, nearly (s).
+    Returned with this `Course`: the side, and whether the slip force surely is not reached on the other one.
     """
     b = plan.stick
     limit = plan.storey.slip_force
@@ -47,9 +47,7 @@ def stick_verdict(plan, start, end, force, offset, h):
     rise1 = h * (plan.hold_u * end.v + plan.hold_v * a1)
     fourth_u, fourth_v = floor_fourths(b, start.v, a0, force.p1, h)
     fourth = abs(plan.hold_u) * fourth_u + abs(plan.hold_v) * fourth_v
-    side = 1 if r1 > 0.0 else -1
-    if not clears(limit + side * r0, side * rise0, limit + side * r1, side * rise1, fourth):
-        return UNCLEAR, side, 0.0
+    side = 1.0 if r1 > 0.0 else -1.0
     j0 = force.p1 - b.g * a0 - b.w2 * start.v
     j1 = force.p1 - b.g * a1 - b.w2 * end.v
     course = Course(
@@ -62,8 +60,18 @@ def stick_verdict(plan, start, end, force, offset, h):
         fourth,
         fourth * b.rate * h,
     )
-    found = verdict(course)
-    return found, side, h * guess(course) if found == CROSSES else 0.0
+    return course, side, clears(limit + side * r0, side * rise0, limit + side * r1, side * rise1, fourth)
+
+
+@inlined
+def stick_verdict(plan, start, end, force, offset, h):
+    """Whether the reaction stays within the slip force on the piece, reaches it once, or neither is sure.
+
+    Returned with the verdict: the side on which it is reached, and after how long, nearly (s).
+    """
+    course, side, one_sided = stick_course(plan, start, end, force, offset, h)
+    found = verdict(course) if one_sided else UNCLEAR
+    return found, int(side), h * guess_of(course) if found == CROSSES else 0.0
 
 
 @inlined
@@ -72,6 +80,20 @@ def stick_ahead(plan, start, force, offset, t):
     b = plan.stick
     u, v, swept = ahead(start.u, start.v, b.g, b.w2, force.p0, force.p1, t, int(plan.stick_order))
     return Motion(u, v, u - offset, v), swept
+
+
+@inlined
+def step_to_slip(plan, r, offset, side):
+    """What the reaction lacks to the slip force at an instant, and what `step_to_zero` makes of it."""
+    gap = plan.storey.slip_force - side * held_force(plan, r.x, r.v, offset)
+    later, last = step_to_zero(
+        gap,
+        -side * (plan.hold_u * r.v + plan.hold_v * r.a),
+        -side * (plan.hold_u * r.a + plan.hold_v * r.j),
+        -side * (plan.hold_u * r.j + plan.hold_v * r.s),
+        -side * (plan.hold_u * r.s + plan.hold_v * r.c),
+    )
+    return gap, later, last
 
 
 @inner
@@ -86,14 +108,7 @@ def locate_slip(plan, start, force, offset, side, t, h):
     for _ in range(ATTEMPTS):
         motion, swept = stick_ahead(plan, start, force, offset, t)
         r = rates_of(motion.u, motion.v, b.g, b.w2, force.p0 + force.p1 * t, force.p1)
-        gap = plan.storey.slip_force - side * held_force(plan, r.x, r.v, offset)
-        later, last = step_to_zero(
-            gap,
-            -side * (plan.hold_u * r.v + plan.hold_v * r.a),
-            -side * (plan.hold_u * r.a + plan.hold_v * r.j),
-            -side * (plan.hold_u * r.j + plan.hold_v * r.s),
-            -side * (plan.hold_u * r.s + plan.hold_v * r.c),
-        )
+        gap, later, last = step_to_slip(plan, r, offset, side)
         if gap > 0.0:
             low = t
         else:

@@ -220,7 +220,6 @@ def strain_of_history(
                 a0,
                 rate,
                 False,
-                False,
                 True,
                 floor,
                 brace,
