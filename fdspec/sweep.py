@@ -222,7 +222,7 @@ def timed(grid: Grid, motion: GroundMotion, certify: bool = True) -> tuple[float
     _warm()
     columns = np.arange(grid.stiffness_ratio.size * grid.period.size)
     started = time.thread_time()
-    results, _, _ = _run_columns(grid, certify, certify, False, None, columns, motion)
+    results, _, _ = _run_columns(grid, certify, False, None, columns, motion)
     return time.thread_time() - started, int(results[:, :, RESULTS.index("transitions")].sum())
 
 
