@@ -55,16 +55,21 @@ class Rates(NamedTuple):
 
 
 @inlined
+def is_clear(course):
+    """Whether bounds alone keep the quantity positive: the usual case, worth asking first."""
+    return clears(course.start, course.start_rise, course.end, course.end_rise, course.fourth)
+
+
+@inlined
 def verdict(course):
     """Whether the quantity stays positive on the piece, crosses zero once, or neither is sure."""
     margin = course.fourth / 8.0
     bends_down = max(course.start_bend, course.end_bend) + margin < 0.0
     bends_up = min(course.start_bend, course.end_bend) - margin > 0.0
     falls = clears(-course.start_rise, -course.start_bend, -course.end_rise, -course.end_bend, course.fifth)
-    clear = clears(course.start, course.start_rise, course.end, course.end_rise, course.fourth)
     turns_outside = (course.start_rise >= 0.0) | (course.end_rise <= 0.0)
     ends_above = course.end > 0.0
-    stays = clear | (ends_above & (bends_down | (bends_up & turns_outside)))
+    stays = is_clear(course) | (ends_above & (bends_down | (bends_up & turns_outside)))
     crosses = (not ends_above) & (bends_down | bends_up | falls)
     sure = CROSSES if crosses else CLEAR
     return sure if (course.start > 0.0) & (stays | crosses) else UNCLEAR

@@ -19,11 +19,17 @@ from fdspec.kernels.types import (
     KICK,
     N_STATE,
     NO_KICK,
+    OFFSET,
     PEAK_ACCELERATION,
     PEAK_DISPLACEMENT,
     PEAK_SHEAR,
     PEAK_VELOCITY,
     PHASE,
+    STICK,
+    D,
+    E,
+    U,
+    V,
 )
 
 WIDTH = 16
@@ -169,9 +175,12 @@ def put_state(p, lane, s):
 
 @inner
 def take_state(p, lane, s):
-    """Take a history's state from its lane."""
+    """Take a history's state from its lane; the brace of one that sticks moves as its floor does."""
     for row in range(N_STATE):
         s[row] = p[row * WIDTH + lane]
+    if s[PHASE] == STICK:
+        s[D] = s[U] - s[OFFSET]
+        s[E] = s[V]
 
 
 @inner

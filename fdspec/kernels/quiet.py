@@ -117,6 +117,8 @@ def form(p, row, lane, x, v, p0, p1):
 def stick_lanes(p, h, ground, rate):
     """Advance the sticking lanes in which nothing happens; return those to walk, and those to keep.
 
+    The brace's motion follows from the floor's and is left for `take_state` to tell.
+
     To keep for their peaks are those that advance where the bounds leave room for a new one.
     HELD keeps the largest reaction for which the bounds leave room: above it no slip force is reached.
     """
@@ -171,8 +173,6 @@ def stick_lanes(p, h, ground, rate):
         p[FROM_V * WIDTH + lane] = v
         p[U * WIDTH + lane] = u1 if moves else u
         p[V * WIDTH + lane] = v1 if moves else v
-        p[D * WIDTH + lane] = u1 - offset if moves else at(p, D, lane)
-        p[E * WIDTH + lane] = v1 if moves else at(p, E, lane)
         p[PEAK_ACCELERATION * WIDTH + lane] = top_a if moves else at(p, PEAK_ACCELERATION, lane)
         p[PEAK_DISPLACEMENT * WIDTH + lane] = top_u if moves else at(p, PEAK_DISPLACEMENT, lane)
         p[PEAK_VELOCITY * WIDTH + lane] = top_v if moves else at(p, PEAK_VELOCITY, lane)

@@ -16,6 +16,7 @@ from fdspec.kernels.crossing import (
     UNCLEAR,
     Course,
     guess_of,
+    is_clear,
     leaves_zero,
     nearby,
     rates_of,
@@ -81,8 +82,11 @@ def slip_verdict(plan, start, end, force, phase, kick, h):
     Returned with the verdict: after how long it comes to zero, nearly (s).  ``kick`` as in `search_slip`.
     """
     course, leaves = slip_course(plan, start, end, force, phase, kick, h)
-    begins = CLEAR if leaves else UNCLEAR
-    found = begins if kick >= 0.0 else verdict(course)
+    if kick >= 0.0:
+        return CLEAR if leaves else UNCLEAR, 0.0
+    if is_clear(course):
+        return CLEAR, 0.0
+    found = verdict(course)
     return found, h * guess_of(course) if found == CROSSES else 0.0
 
 

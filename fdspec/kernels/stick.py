@@ -9,12 +9,14 @@ from fdspec.jit import inlined, inner
 from fdspec.kernels.bounds import floor_fourths, floor_peaks, relative_acceleration
 from fdspec.kernels.crossing import (
     ATTEMPTS,
+    CLEAR,
     CROSSES,
     NEAR,
     SETTLED,
     UNCLEAR,
     Course,
     guess_of,
+    is_clear,
     nearby,
     rates_of,
     step_to_zero,
@@ -70,7 +72,11 @@ def stick_verdict(plan, start, end, force, offset, h):
     Returned with the verdict: the side on which it is reached, and after how long, nearly (s).
     """
     course, side, one_sided = stick_course(plan, start, end, force, offset, h)
-    found = verdict(course) if one_sided else UNCLEAR
+    if not one_sided:
+        return UNCLEAR, int(side), 0.0
+    if is_clear(course):
+        return CLEAR, int(side), 0.0
+    found = verdict(course)
     return found, int(side), h * guess_of(course) if found == CROSSES else 0.0
 
 
