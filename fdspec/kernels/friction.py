@@ -34,11 +34,8 @@ def phase_after_stop(sign, held, slip_force):
     ``held`` is the reaction sticking would need: within the static slip force it sticks; beyond it,
     against the motion, it reverses; with the motion, it goes on.
     """
-    if abs(held) <= slip_force:
-        return STICK
-    if held * sign < 0.0:
-        return -sign
-    return GOES_ON
+    beyond = -sign if held * sign < 0.0 else GOES_ON
+    return STICK if abs(held) <= slip_force else beyond
 
 
 @inner

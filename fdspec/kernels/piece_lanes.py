@@ -8,6 +8,7 @@ one, and lead those whose phase changes to the instant.
 from __future__ import annotations
 
 from fdspec.jit import inlined, inner
+from fdspec.kernels.bounds import forcing
 from fdspec.kernels.crossing import CLEAR, CROSSES, NEAR, SETTLED, UNCLEAR, guess, nearby, rates_of, verdict
 from fdspec.kernels.oscillator import advance, ahead_in_lane, area, undamped_ahead
 from fdspec.kernels.packed import (
@@ -48,7 +49,7 @@ from fdspec.kernels.way import end_in, force_in, motion_in, plan_in, way
 def take_whole(p, a0, rate):
     """Lay out every lane's next piece, and carry it to its end as if it were whole.
 
-    Returns the lanes whose piece is none, and those that stick.
+    Returns the lanes whose piece is no whole one, and those that stick.
     """
     parts = 0
     holding = 0
@@ -62,16 +63,14 @@ def take_whole(p, a0, rate):
         h = (plan.step if last else (part + 1.0) * plan.slip_step) - tau
         ground = a0 + rate * tau
         offset = way(p, OFFSET, lane)
-        push = phase * plan.storey.kinetic_slip_force
-        p0 = plan.lift * offset - ground if sticks else -ground - push / plan.storey.floor_mass
-        b0 = 0.0 if sticks else push / plan.storey.brace_mass - ground
+        force = forcing(plan, phase, offset, ground, rate)
         motion = motion_in(p, lane)
-        one = advance(plan.stick_map, motion.u, motion.v, p0, -rate)
-        two = advance(plan.floor_map, motion.u, motion.v, p0, -rate)
-        brace = advance(plan.brace_map, motion.d, motion.e, b0, -rate)
-        one_area = area(plan.stick_map, motion.u, motion.v, p0, -rate)
-        two_area = area(plan.floor_map, motion.u, motion.v, p0, -rate)
-        brace_area = area(plan.brace_map, motion.d, motion.e, b0, -rate)
+        one = advance(plan.stick_map, motion.u, motion.v, force.p0, force.p1)
+        two = advance(plan.floor_map, motion.u, motion.v, force.p0, force.p1)
+        brace = advance(plan.brace_map, motion.d, motion.e, force.b0, force.b1)
+        one_area = area(plan.stick_map, motion.u, motion.v, force.p0, force.p1)
+        two_area = area(plan.floor_map, motion.u, motion.v, force.p0, force.p1)
+        brace_area = area(plan.brace_map, motion.d, motion.e, force.b0, force.b1)
         u = one[0] if sticks else two[0]
         v = one[1] if sticks else two[1]
         walks = at(p, ON_WAY, lane) != 0.0
@@ -79,8 +78,8 @@ def take_whole(p, a0, rate):
         holding |= (1 << lane) if walks & sticks else 0
         p[LENGTH * WIDTH + lane] = h
         p[GROUND * WIDTH + lane] = ground
-        p[FORCE_P * WIDTH + lane] = p0
-        p[FORCE_B * WIDTH + lane] = b0
+        p[FORCE_P * WIDTH + lane] = force.p0
+        p[FORCE_B * WIDTH + lane] = force.b0
         p[END_U * WIDTH + lane] = u
         p[END_V * WIDTH + lane] = v
         p[END_D * WIDTH + lane] = u - offset if sticks else brace[0]
@@ -216,9 +215,9 @@ def approach(p, rate):
         settles = inside & (pace * abs(later) <= NEAR) & (pace * last <= SETTLED)
         u, v, more = nearby(r, later)
         d, e, swing_more = nearby(q, later)
-        open_ = at(p, SEEKS, lane) != 0.0
-        here = open_ & settles
-        goes_on = open_ & (not settles)
+        seeking = at(p, SEEKS, lane) != 0.0
+        here = seeking & settles
+        goes_on = seeking & (not settles)
         seeks |= (1 << lane) if goes_on else 0
         p[SEEKS * WIDTH + lane] = 1.0 if goes_on else 0.0
         p[LOW * WIDTH + lane] = low

@@ -14,7 +14,7 @@ import math
 from fdspec.jit import inlined, inner
 from fdspec.kernels.bounds import floor_bounds
 from fdspec.kernels.energy import input_work
-from fdspec.kernels.friction import reaction, sliding_kick
+from fdspec.kernels.friction import GOES_ON, phase_after_stop, reaction, sliding_kick
 from fdspec.kernels.packed import (
     CALM,
     CROSSING,
@@ -34,7 +34,7 @@ from fdspec.kernels.packed import (
 )
 from fdspec.kernels.piece_lanes import aim, approach, judge_slip, judge_stick, take_parts, take_whole
 from fdspec.kernels.shelf import take_plan
-from fdspec.kernels.slip import base_shear, shear_bounds, slip_peaks
+from fdspec.kernels.slip import shear_bounds, slip_peaks
 from fdspec.kernels.stick import stick_peaks
 from fdspec.kernels.types import (
     ANCHOR,
@@ -56,6 +56,7 @@ from fdspec.kernels.types import (
     U,
     V,
 )
+from fdspec.kernels.walk import with_instant
 from fdspec.kernels.way import (
     end_in,
     force_in,
@@ -190,30 +191,17 @@ def change(p, lost):
         gap = u - d
         slipped = side * (gap - anchor)
         held = reaction(storey, u, v, d)
-        holds = (abs(held) <= storey.slip_force) & (not sticks)
-        turns = (held * side < 0.0) & (not sticks) & (not holds)
-        stops = holds | turns
-        turned = -side if turns else side
-        after = 0.0 if holds else turned
+        after = side if sticks else phase_after_stop(side, held, storey.slip_force)
+        holds = after == 0.0
+        goes_on = after == GOES_ON
+        after = side if goes_on else after
+        stops = (not sticks) & (not goes_on)
         kick = sliding_kick(storey, storey.slip_force if sticks else held)
         kick = NO_KICK if holds else kick
         offset = gap if holds else offset
         kept = way(p, OFFSET, lane) if sticks else anchor
-        peaks = peaks_in(p, lane)
-        free = after * storey.kinetic_slip_force / storey.floor_mass
-        locked = plan.lift * offset - plan.stick.g * v - plan.stick.w2 * u
-        loose = -free - plan.floor.g * v - plan.floor.w2 * u
-        put_peaks(
-            p,
-            lane,
-            mine,
-            Peaks(
-                max(peaks.acceleration, abs(locked if holds else loose)),
-                max(peaks.displacement, abs(u)),
-                max(peaks.velocity, abs(v)),
-                max(peaks.shear, abs(base_shear(storey, Motion(u, v, d, v)))),
-            ),
-        )
+        motion = Motion(u, v, d, v)
+        put_peaks(p, lane, mine, with_instant(plan, after, offset, motion, peaks_in(p, lane)))
         tau = at(p, TAU, lane)
         part = min(math.floor(tau / plan.slip_step), plan.slip_steps - 1.0)
         part += 1.0 if (part + 1.0 < plan.slip_steps) & ((part + 1.0) * plan.slip_step <= tau) else 0.0
@@ -230,7 +218,7 @@ def change(p, lost):
         p[(WAY + KICK) * WIDTH + lane] = kick if mine else way(p, KICK, lane)
         p[(WAY + ANCHOR) * WIDTH + lane] = (gap if stops else kept) if mine else anchor
         p[(WAY + TRAVEL) * WIDTH + lane] += slipped if mine & stops else 0.0
-        p[(WAY + TRANSITIONS) * WIDTH + lane] += 1.0 if mine & (sticks | stops) else 0.0
+        p[(WAY + TRANSITIONS) * WIDTH + lane] += 1.0 if mine & (not goes_on) else 0.0
         p[(WAY + EVENTS) * WIDTH + lane] = events if mine else way(p, EVENTS, lane)
     return lost
 
