@@ -103,7 +103,7 @@ def expand(c, n, x, v, g, w2, p0, p1, h):
     older = c[2]
     old = c[3]
     for k in range(4, n + 1):
-        term = -(gh * INVERSE[k] * old + wh * (INVERSE[k] * INVERSE[k - 1]) * older)
+        term = term_of(k, gh, wh, old, older)
         c[k] = term
         older = old
         old = term
@@ -190,21 +190,35 @@ def area(step, x, v, p0, p1):
     return step.ix * x + step.iv * v + step.i0 * p0 + step.i1 * p1
 
 
-@inner
-def ahead(x, v, g, w2, p0, p1, h, n):
-    """Displacement and velocity after h, and the integral of displacement, by a series of order n."""
-    gh = g * h
-    wh = w2 * h * h
+@inlined
+def opening(x, v, p0, p1, gh, wh, h):
+    """Terms of second and third order of a series over h, and the sums up to there.
+
+    Sums: displacement, velocity times h, and the integral of displacement over h.
+    """
     start = v * h
     second = 0.5 * (p0 * h * h - gh * start - wh * x)
     third = (p1 * h * h * h - gh * 2.0 * second - wh * start) * SIXTH
     end = x + start + second + third
     slope = start + 2.0 * second + 3.0 * third
     area = x + 0.5 * start + INVERSE[3] * second + 0.25 * third
-    older = second
-    old = third
+    return second, third, end, slope, area
+
+
+@inlined
+def term_of(k, gh, wh, old, older):
+    """Term of order k of a series, from the two before it."""
+    return -(gh * INVERSE[k] * old + wh * (INVERSE[k] * INVERSE[k - 1]) * older)
+
+
+@inner
+def ahead(x, v, g, w2, p0, p1, h, n):
+    """Displacement and velocity after h, and the integral of displacement, by a series of order n."""
+    gh = g * h
+    wh = w2 * h * h
+    older, old, end, slope, area = opening(x, v, p0, p1, gh, wh, h)
     for k in range(4, n + 1):
-        term = -(gh * INVERSE[k] * old + wh * (INVERSE[k] * INVERSE[k - 1]) * older)
+        term = term_of(k, gh, wh, old, older)
         end += term
         slope += k * term
         area += INVERSE[k + 1] * term
@@ -215,19 +229,12 @@ def ahead(x, v, g, w2, p0, p1, h, n):
 
 @inlined
 def ahead_in_lane(x, v, g, w2, p0, p1, h, n):
-    """The same numbers as `ahead` for an order of at most MOST, without a loop whose end is not known."""
+    """The same numbers for an order of at most MOST, by a loop of known length, which lanes can share."""
     gh = g * h
     wh = w2 * h * h
-    start = v * h
-    second = 0.5 * (p0 * h * h - gh * start - wh * x)
-    third = (p1 * h * h * h - gh * 2.0 * second - wh * start) * SIXTH
-    end = x + start + second + third
-    slope = start + 2.0 * second + 3.0 * third
-    area = x + 0.5 * start + INVERSE[3] * second + 0.25 * third
-    older = second
-    old = third
+    older, old, end, slope, area = opening(x, v, p0, p1, gh, wh, h)
     for k in range(4, MOST + 1):
-        term = -(gh * INVERSE[k] * old + wh * (INVERSE[k] * INVERSE[k - 1]) * older)
+        term = term_of(k, gh, wh, old, older)
         term = term if k <= n else 0.0
         end += term
         slope += k * term
