@@ -11,7 +11,7 @@ from numba import types
 
 from fdspec.jit import entry, float1d, float2d, ground1d, inner, int1d
 from fdspec.kernels.crests import N_CREST, QUANTITIES, keep_crests, settle_crests
-from fdspec.kernels.energy import put_losses
+from fdspec.kernels.energy import N_FORMS, put_losses
 from fdspec.kernels.oscillator import TERMS, step_map
 from fdspec.kernels.packed import (
     HELD,
@@ -90,7 +90,9 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, crowd, results, 
     """
     count = shelf.shape[0]
     p = np.zeros(N_ROWS * WIDTH)
-    states = np.zeros((WIDTH, N_STATE))
+    # One state and one row of losses for all lanes: a view of an array for each walk would count references.
+    s, losses = np.zeros(N_STATE), np.zeros(N_FORMS)
+    given_up = np.zeros((WIDTH, N_STATE))
     crests = np.zeros((WIDTH, len(QUANTITIES), N_CREST))
     floor, brace, search = np.empty(TERMS), np.empty(TERMS), np.empty(TERMS)
     times, phases, traces = np.empty(0), np.empty(0, np.int64), np.empty((0, 0))
@@ -132,12 +134,14 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, crowd, results, 
                 if to_keep >> lane & 1:
                     keep_crests(p, lane, take_plan(shelf, lane), crests, start, rate, floor, search)
                 elif to_walk >> lane & 1:
-                    s = states[lane]
                     take_state(p, lane, s)
+                    if certify:
+                        for k in range(N_FORMS):
+                            losses[k] = forms[lane, k]
                     before = s[PHASE] != STICK
                     walk(
                         take_plan(shelf, lane),
-                        forms[lane],
+                        losses,
                         s,
                         0.0,
                         start,
@@ -157,12 +161,16 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, crowd, results, 
                     put_state(p, lane, s)
                     after = s[PHASE] != STICK
                     if s[STATUS] != OK:
+                        for row in range(N_STATE):
+                            given_up[lane, row] = s[row]
                         rest_lane(p, lane)
                         after = False
                     slipping += (1 if after else 0) - (1 if before else 0)
     for lane in range(count):
         settle_crests(p, lane, take_plan(shelf, lane), crests, floor, search)
-        if states[lane, STATUS] == OK:
-            take_state(p, lane, states[lane])
-        finish(take_plan(shelf, lane).storey, states[lane], certify, results[lane])
+        take_state(p, lane, s)
+        if given_up[lane, STATUS] != OK:
+            for row in range(N_STATE):
+                s[row] = given_up[lane, row]
+        finish(take_plan(shelf, lane).storey, s, certify, results[lane])
         held[lane] = p[HELD * WIDTH + lane]
