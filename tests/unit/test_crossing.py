@@ -14,7 +14,7 @@ from fdspec.kernels.crossing import (
     CROSSES,
     NEAR,
     Course,
-    guess,
+    guess_of,
     leaves_zero,
     nearby,
     rates_of,
@@ -80,7 +80,7 @@ def test_few_quantities_leave_doubt() -> None:
 def test_a_crossing_is_guessed_well(phase: float, angle: float, level: float, slope: float) -> None:
     line = course(phase, angle, level, slope)
     assume(verdict(line) == CROSSES and abs(line.end_rise) > 0.1 and abs(line.start_rise) > 0.1)
-    x = guess(line)
+    x = guess_of(line)
     values = level + slope * AT + np.cos(angle + phase * AT)
     assert x == pytest.approx(AT[int(np.argmax(values <= 0.0))], abs=0.05)
 
