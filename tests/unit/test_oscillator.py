@@ -2,23 +2,32 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.linalg import expm
 
 from fdspec.kernels.oscillator import (
+    MOST,
+    SHORT_ANGLE,
     TERMS,
     advance,
     ahead,
+    ahead_in_lane,
     area,
     expand,
     rate_bound,
     series_order,
+    sine_cosine,
     square_integral,
     step_map,
     undamped_ahead,
 )
+from fdspec.kernels.plan import RADIANS
 from fdspec.kernels.quadrature import SHORT, series_area, series_square, short_square, square_form
 
 OSCILLATORS = [
@@ -62,13 +71,26 @@ def test_ahead(g: float, w2: float, h: float) -> None:
     assert found == pytest.approx(exponential(g, w2, h)[:3], rel=1e-13, abs=1e-15)
 
 
-@pytest.mark.parametrize("phase", [1e-6, 0.01, 0.7, 2.0, 30.0])
+@pytest.mark.parametrize("phase", [1e-6, 0.01, 0.7, RADIANS, 2.0 * SHORT_ANGLE])
 def test_ahead_without_damping(phase: float) -> None:
     omega = 500.0
     x, v, p0, p1 = START
     found = undamped_ahead(x, v, omega, 1.0 / omega, p0, p1, phase / omega)
     expected = exponential(0.0, omega * omega, phase / omega)[:3]
     assert found == pytest.approx(expected, rel=1e-12, abs=1e-16)
+
+
+@given(st.floats(0.0, SHORT_ANGLE))
+def test_sine_and_cosine_are_those_of_the_library(angle: float) -> None:
+    sine, cosine = sine_cosine(angle)
+    assert abs(sine - math.sin(angle)) <= 2.0**-52 * angle
+    assert abs(cosine - math.cos(angle)) <= 2.0**-52
+
+
+@pytest.mark.parametrize("order", range(4, MOST + 1))
+@given(*[st.floats(-2.0, 2.0)] * 4)
+def test_a_lane_sums_the_same_series(order: int, x: float, v: float, p0: float, p1: float) -> None:
+    assert ahead_in_lane(x, v, 0.9, 36.0, p0, p1, 0.1, order) == ahead(x, v, 0.9, 36.0, p0, p1, 0.1, order)
 
 
 @pytest.mark.parametrize(("g", "w2", "h"), OSCILLATORS)
