@@ -10,6 +10,8 @@ no parallel    one level of parallelism only: the scheduler's.
 no cfunc       nothing here is called from C; its wrappers cost time and memory to compile.
 signatures     entries are compiled for one explicit signature: nothing compiles a second time for
                another type.
+wide vectors   on most processors that have vectors of 512 bits LLVM uses 256, since the wide ones may
+               slow down what runs beside them; loops over lanes are little else, and ask for them.
 cache          entries only: what they call is compiled into them.  numba knows an entry to be stale
                when its own file has changed, not when a callee's has, so the cache folder is named
                after the source of all kernels.  One process compiles, others wait (kernel_cache.py).
@@ -26,6 +28,7 @@ from typing import Any, Final, TypeVar
 import numba
 from llvmlite.binding import get_host_cpu_features, get_host_cpu_name
 from numba import config, types
+from numba.extending import intrinsic
 
 from fdspec.kernel_cache import cache_folder, compiling
 
@@ -75,6 +78,25 @@ def inlined(function: Function) -> Function:
     """Compile a rule of the time loop; a call would copy its tuples of constants onto the stack."""
     compiled: Function = numba.njit(_nrt=False, forceinline=True, no_cfunc_wrapper=True, **OPTIONS)(function)
     return compiled
+
+
+if config.DISABLE_JIT:
+
+    def wide() -> None:
+        """Do nothing: without the JIT there are no vectors."""
+
+else:
+
+    @intrinsic  # type: ignore[untyped-decorator]
+    def wide(typing_context: Any) -> Any:  # noqa: ARG001
+        """Let the compiler use its widest vectors in the kernel that calls this."""
+
+        def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:  # noqa: ARG001
+            # llvmlite knows attributes of one word alone, and keeps them in a set.
+            set.add(builder.function.attributes, '"prefer-vector-width"="512"')
+            return context.get_dummy_value()
+
+        return types.void(), code
 
 
 def entry(signature: Any) -> Callable[[Function], Function]:

@@ -7,7 +7,7 @@ one, and lead those whose phase changes to the instant.
 
 from __future__ import annotations
 
-from fdspec.jit import inlined, inner
+from fdspec.jit import inlined, inner, wide
 from fdspec.kernels.bounds import forcing
 from fdspec.kernels.crossing import CLEAR, CROSSES, NEAR, SETTLED, UNCLEAR, guess, nearby, rates_of, verdict
 from fdspec.kernels.oscillator import advance, ahead_in_lane, area, undamped_ahead
@@ -51,6 +51,7 @@ def take_whole(p, a0, rate):
 
     Returns the lanes whose piece is no whole one, and those that stick.
     """
+    wide()
     parts = 0
     holding = 0
     for lane in range(WIDTH):
@@ -111,6 +112,7 @@ def motion_at(p, rate, lane, t):
 @inner
 def take_parts(p, rate):
     """Carry the lanes to their piece's end whose piece is no whole one."""
+    wide()
     for lane in range(WIDTH):
         whole = at(p, WHOLE, lane) != 0.0
         end, swept, swung = motion_at(p, rate, lane, at(p, LENGTH, lane))
@@ -136,6 +138,7 @@ def note(p, lane, mine, crosses, side, course):
 @inner
 def judge_stick(p, rate, lost):
     """Find out what happens in the lanes that stick; return those whose phase changes, and those in doubt."""
+    wide()
     seeks = 0
     for lane in range(WIDTH):
         plan = plan_in(p, lane)
@@ -154,6 +157,7 @@ def judge_stick(p, rate, lost):
 @inner
 def judge_slip(p, rate, lost):
     """Find out what happens in the lanes that slip; return those whose phase changes, and those in doubt."""
+    wide()
     seeks = 0
     for lane in range(WIDTH):
         plan = plan_in(p, lane)
@@ -175,6 +179,7 @@ def judge_slip(p, rate, lost):
 @inner
 def aim(p):
     """Guess where the lanes cross."""
+    wide()
     for lane in range(WIDTH):
         h = at(p, LENGTH, lane)
         share = guess(
@@ -189,6 +194,7 @@ def aim(p):
 @inner
 def approach(p, rate):
     """Step closer to the change of phase in the lanes that seek one; return those that still do."""
+    wide()
     seeks = 0
     for lane in range(WIDTH):
         plan = plan_in(p, lane)

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 
-from fdspec.jit import inlined, inner
+from fdspec.jit import inlined, inner, wide
 from fdspec.kernels.packed import (
     B_DRIFT,
     B_G,
@@ -122,6 +122,7 @@ def stick_lanes(p, h, ground, rate):
     To keep for their peaks are those that advance where the bounds leave room for a new one.
     HELD keeps the largest reaction for which the bounds leave room: above it no slip force is reached.
     """
+    wide()
     third = h * THIRD
     ground_end = ground + rate * h
     steep = abs(rate)
@@ -189,6 +190,7 @@ def stick_lanes(p, h, ground, rate):
 @inner
 def slip_lanes(p, h, ground, rate):
     """Advance the slipping lanes in which nothing happens; return those to walk, and those to keep."""
+    wide()
     third = h * THIRD
     ground_end = ground + rate * h
     steep = abs(rate)
@@ -287,6 +289,7 @@ def slip_lanes(p, h, ground, rate):
 @inner
 def loss_lanes(p, ground, rate, to_walk):
     """Add the viscous work of this step to all lanes but those that are to walk it."""
+    wide()
     for lane in range(WIDTH):
         sign = at(p, PHASE, lane)
         u = at(p, FROM_U, lane)

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 
-from fdspec.jit import inlined, inner
+from fdspec.jit import inlined, inner, wide
 from fdspec.kernels.bounds import floor_bounds
 from fdspec.kernels.energy import input_work
 from fdspec.kernels.friction import GOES_ON, phase_after_stop, reaction, sliding_kick
@@ -86,6 +86,7 @@ def looks(p, lane):
 @inner
 def raise_stick(p, rate):
     """Raise the peaks of lanes that stick to their piece's end; return those that may pass one inside."""
+    wide()
     doubts = 0
     for lane in range(WIDTH):
         plan = plan_in(p, lane)
@@ -104,6 +105,7 @@ def raise_stick(p, rate):
 @inner
 def raise_slip(p, rate):
     """Raise the peaks of lanes that slip to their piece's end; return those that may pass one inside."""
+    wide()
     doubts = 0
     for lane in range(WIDTH):
         plan = plan_in(p, lane)
@@ -141,6 +143,7 @@ def search_peaks(p, lane, plan, rate, floor, brace, search):
 @inner
 def arrive(p):
     """Move every lane to its piece's end; return those whose step is not over, and those that are lost."""
+    wide()
     on_way = 0
     lost = 0
     for lane in range(WIDTH):
@@ -179,6 +182,7 @@ def arrive(p):
 @inner
 def change(p, lost):
     """Follow the rules where a slip begins, or sliding has come to zero; return the lanes that are lost."""
+    wide()
     for lane in range(WIDTH):
         plan = plan_in(p, lane)
         storey = plan.storey
