@@ -92,8 +92,9 @@ else:
         """Let the compiler use its widest vectors in the kernel that calls this."""
 
         def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:  # noqa: ARG001
-            # llvmlite knows attributes of one word alone, and keeps them in a set.
-            set.add(builder.function.attributes, '"prefer-vector-width"="512"')
+            # llvmlite's own method takes attributes of one word alone; it keeps them in a set.
+            if isinstance(builder.function.attributes, set):
+                set.add(builder.function.attributes, '"prefer-vector-width"="512"')
             return context.get_dummy_value()
 
         return types.void(), code
