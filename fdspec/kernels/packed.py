@@ -66,8 +66,8 @@ _AT += N_STATE
 TAU, PART, WHOLE, CALM, ON_WAY = range(_AT, _AT + 5)
 _AT += 5
 # Its piece: length, ground acceleration, forces, motion at its end with integrals, verdict and crossing.
-LENGTH, GROUND, RATE, FORCE_P, FORCE_B, END_U, END_V, END_D, END_E, SWEPT, SWUNG = range(_AT, _AT + 11)
-_AT += 11
+LENGTH, GROUND, FORCE_P, FORCE_B, END_U, END_V, END_D, END_E, SWEPT, SWUNG = range(_AT, _AT + 10)
+_AT += 10
 CROSSING, SIDE, TRIAL, LOW, HIGH, SEEKS, BEGIN, BEGIN_RISE, FINISH, FINISH_RISE = range(_AT, _AT + 10)
 N_ROWS = _AT + 10
 

@@ -22,7 +22,6 @@ from fdspec.kernels.packed import (
     LENGTH,
     ON_WAY,
     PART,
-    RATE,
     SIDE,
     SWEPT,
     SWUNG,
@@ -141,7 +140,7 @@ def search_peaks(p, lane, plan, rate, floor, brace, search):
 
 
 @inner
-def arrive(p):
+def arrive(p, rate):
     """Move every lane to its piece's end; return those whose step is not over, and those that are lost."""
     wide()
     on_way = 0
@@ -151,7 +150,6 @@ def arrive(p):
         sticks = way(p, PHASE, lane) == 0.0
         start, end = motion_in(p, lane), end_in(p, lane)
         h, ground = at(p, LENGTH, lane), at(p, GROUND, lane)
-        rate = at(p, RATE, lane)
         swept, swung = at(p, SWEPT, lane), at(p, SWUNG, lane)
         held_work = input_work(plan, 0, start, end, swept, swung, ground, rate, h)
         slip_work = input_work(plan, 1, start, end, swept, swung, ground, rate, h)
@@ -234,7 +232,7 @@ def walk_lanes(p, a0, rate, to_walk, shelf, floor, brace, search):
     a0, rate: as for the walk; no viscous work is kept.  shelf: the lanes' plans; floor, brace, search: room
     for series, (TERMS,).
     """
-    lost = set_out(p, rate, to_walk)
+    lost = set_out(p, to_walk)
     on_way = to_walk
     for _ in range(ROUNDS):
         parts, holding = take_whole(p, a0, rate)
@@ -263,7 +261,7 @@ def walk_lanes(p, a0, rate, to_walk, shelf, floor, brace, search):
         for lane in range(WIDTH):
             if doubts >> lane & 1:
                 search_peaks(p, lane, take_plan(shelf, lane), rate, floor, brace, search)
-        further, fallen = arrive(p)
+        further, fallen = arrive(p, rate)
         lost |= fallen
         if crosses:
             lost = change(p, lost)

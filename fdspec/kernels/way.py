@@ -23,7 +23,6 @@ from fdspec.kernels.packed import (
     ON_WAY,
     PART,
     PLAN,
-    RATE,
     TAU,
     WAY,
     WHOLE,
@@ -180,7 +179,7 @@ def keep_on(p, on_way):
 
 
 @inner
-def set_out(p, rate, to_walk):
+def set_out(p, to_walk):
     """Put the lanes of this set on their way; return those of them that cannot go."""
     lost = 0
     for row in range(N_STATE):
@@ -198,6 +197,5 @@ def set_out(p, rate, to_walk):
         p[TAU * WIDTH + lane] = 0.0
         p[PART * WIDTH + lane] = 0.0
         p[WHOLE * WIDTH + lane] = 1.0
-        p[RATE * WIDTH + lane] = rate
     keep_on(p, to_walk & ~lost)
     return to_walk & lost
