@@ -12,6 +12,9 @@ signatures     entries are compiled for one explicit signature: nothing compiles
                another type.
 wide vectors   on most processors that have vectors of 512 bits LLVM uses 256, since the wide ones may
                slow down what runs beside them; loops over lanes are little else, and ask for them.
+fused          a product and a sum in one instruction, where a formula says so by ``fma``: half the time,
+               and rounded once on every processor, so that the same bits come of it everywhere.  The
+               compiler's own leave to fuse would give a lane other bits than the same history alone.
 cache          entries only: what they call is compiled into them.  numba knows an entry to be stale
                when its own file has changed, not when a callee's has, so the cache folder is named
                after the source of all kernels.  One process compiles, others wait (kernel_cache.py).
@@ -85,6 +88,10 @@ if config.DISABLE_JIT:
     def wide() -> None:
         """Do nothing: without the JIT there are no vectors."""
 
+    def fma(a: float, b: float, c: float) -> float:
+        """Give a b + c, here rounded twice: Python has had an fma only since 3.13."""
+        return a * b + c
+
 else:
 
     @intrinsic  # type: ignore[untyped-decorator]
@@ -98,6 +105,15 @@ else:
             return context.get_dummy_value()
 
         return types.void(), code
+
+    @intrinsic  # type: ignore[untyped-decorator]
+    def fma(typing_context: Any, a: Any, b: Any, c: Any) -> Any:  # noqa: ARG001
+        """Give a b + c, rounded once."""
+
+        def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:  # noqa: ARG001
+            return builder.fma(*arguments)
+
+        return types.float64(types.float64, types.float64, types.float64), code
 
 
 def entry(signature: Any) -> Callable[[Function], Function]:

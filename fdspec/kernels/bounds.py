@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from fdspec.jit import inlined, inner
-from fdspec.kernels.oscillator import expand
+from fdspec.jit import fma, inlined, inner
+from fdspec.kernels.oscillator import acceleration, expand
 from fdspec.kernels.roots import TAIL, THIRD, largest_magnitude
 from fdspec.kernels.types import STICK, Force, Peaks
 
@@ -24,20 +24,20 @@ def forcing(plan, phase, offset, acceleration, rate):
 @inlined
 def relative_acceleration(branch, x, v, force):
     """x'' of an oscillator under this force over mass."""
-    return force - branch.g * v - branch.w2 * x
+    return acceleration(x, v, branch.g, branch.w2, force)
 
 
 @inlined
 def swing(branch, v, a, force_rate):
     """Amplitude (m/s) that bounds free motion: |d^k v/dt^k| <= rate^k swing for k >= 1."""
-    return abs(v) + abs(force_rate) * branch.drift + abs(a) * branch.slowness
+    return fma(abs(a), branch.slowness, fma(abs(force_rate), branch.drift, abs(v)))
 
 
 @inlined
 def crest(start, start_rise, end, end_rise, fourth):
     """Bound on a magnitude over a step, from values and rises (slope times step) at both ends."""
-    inside = max(abs(start + start_rise * THIRD), abs(end - end_rise * THIRD))
-    return max(max(abs(start), abs(end)), inside + fourth * TAIL)
+    inside = max(abs(fma(start_rise, THIRD, start)), abs(fma(-end_rise, THIRD, end)))
+    return max(max(abs(start), abs(end)), fma(fourth, TAIL, inside))
 
 
 @inner
@@ -87,7 +87,7 @@ def largest_acceleration(floor, search, n, h, g, w2, base, best):
     """The greater of ``best`` and the floor's largest absolute acceleration on the expanded piece."""
     velocity_series(floor, n, h, search)
     for k in range(n + 1):
-        search[k] = -g * search[k] - w2 * floor[k]
+        search[k] = fma(-g, search[k], -w2 * floor[k])
     search[0] += base
     return largest_magnitude(search, n, best)
 
@@ -100,9 +100,9 @@ def floor_bounds(b, base, mass, start, end, force, h, peaks):
     may be passed: displacement, velocity, acceleration.
     """
     a0 = relative_acceleration(b, start.u, start.v, force.p0)
-    a1 = relative_acceleration(b, end.u, end.v, force.p0 + force.p1 * h)
-    q0 = base - b.g * start.v - b.w2 * start.u
-    q1 = base - b.g * end.v - b.w2 * end.u
+    a1 = relative_acceleration(b, end.u, end.v, fma(force.p1, h, force.p0))
+    q0 = relative_acceleration(b, start.u, start.v, base)
+    q1 = relative_acceleration(b, end.u, end.v, base)
     acceleration = max(peaks.acceleration, abs(q1))
     displacement = max(peaks.displacement, abs(end.u))
     velocity = max(peaks.velocity, abs(end.v))
@@ -114,10 +114,10 @@ def floor_bounds(b, base, mass, start, end, force, h, peaks):
     see_q = (
         crest(
             q0,
-            -h * (b.g * a0 + b.w2 * start.v),
+            -h * fma(b.g, a0, b.w2 * start.v),
             q1,
-            -h * (b.g * a1 + b.w2 * end.v),
-            b.g * fourth_v + b.w2 * fourth_u,
+            -h * fma(b.g, a1, b.w2 * end.v),
+            fma(b.g, fourth_v, b.w2 * fourth_u),
         )
         > least
     )

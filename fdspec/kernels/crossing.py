@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from fdspec.jit import inlined
+from fdspec.jit import fma, inlined
+from fdspec.kernels.oscillator import acceleration
 from fdspec.kernels.roots import clears
 
 CLEAR, CROSSES, UNCLEAR = 0, 1, 2
@@ -90,13 +91,13 @@ def leaves_zero(rise, bend, twist, fourth, noise):
 def guess(start, start_rise, end, end_rise):
     """Fraction of the piece at which the cubic through values and rises at both ends crosses zero, nearly."""
     drop = end - start
-    square = 3.0 * drop - 2.0 * start_rise - end_rise
-    cube = start_rise + end_rise - 2.0 * drop
+    square = fma(3.0, drop, fma(-2.0, start_rise, -end_rise))
+    cube = fma(-2.0, drop, start_rise + end_rise)
     x = start / -drop
     inside = True
     for _ in range(2):
-        height = start + x * (start_rise + x * (square + x * cube))
-        slope = start_rise + x * (2.0 * square + 3.0 * x * cube)
+        height = fma(x, fma(x, fma(x, cube, square), start_rise), start)
+        slope = fma(x, fma(3.0 * x, cube, 2.0 * square), start_rise)
         step = x - height / slope
         inside &= (step >= 0.0) & (step <= 1.0)
         x = step if inside else x
@@ -112,18 +113,20 @@ def guess_of(course):
 @inlined
 def rates_of(x, v, g, w2, p, p1):
     """Derivatives of an oscillator under force over mass p, which grows by p1."""
-    a = p - g * v - w2 * x
-    j = p1 - g * a - w2 * v
-    s = -g * j - w2 * a
-    return Rates(x, v, a, j, s, -g * s - w2 * j)
+    a = acceleration(x, v, g, w2, p)
+    j = acceleration(v, a, g, w2, p1)
+    s = fma(-g, j, -w2 * a)
+    return Rates(x, v, a, j, s, fma(-g, s, -w2 * j))
 
 
 @inlined
 def nearby(r, t):
     """Displacement and velocity a short time later, and the integral of displacement until then."""
-    x = r.x + t * (r.v + t * (HALF * r.a + t * (SIXTH * r.j + t * (R_24 * r.s + t * (R_120 * r.c)))))
-    v = r.v + t * (r.a + t * (HALF * r.j + t * (SIXTH * r.s + t * (R_24 * r.c))))
-    return x, v, t * (r.x + t * (HALF * r.v + t * (SIXTH * r.a + t * (R_24 * r.j + t * (R_120 * r.s)))))
+    a, j, s = HALF * r.a, SIXTH * r.j, R_24 * r.s
+    x = fma(t, fma(t, fma(t, fma(t, fma(t, R_120 * r.c, s), j), a), r.v), r.x)
+    v = fma(t, fma(t, fma(t, fma(t, R_24 * r.c, SIXTH * r.s), HALF * r.j), r.a), r.v)
+    area = fma(t, fma(t, fma(t, fma(t, R_120 * r.s, R_24 * r.j), SIXTH * r.a), HALF * r.v), r.x)
+    return x, v, t * area
 
 
 @inlined
@@ -132,7 +135,7 @@ def step_to_zero(y, y1, y2, y3, y4):
     t = -y / y1
     step = 0.0
     for _ in range(2):
-        height = y + t * (y1 + t * (HALF * y2 + t * (SIXTH * y3 + t * (R_24 * y4))))
-        step = height / (y1 + t * (y2 + t * (HALF * y3 + t * (SIXTH * y4))))
+        height = fma(t, fma(t, fma(t, fma(t, R_24 * y4, SIXTH * y3), HALF * y2), y1), y)
+        step = height / fma(t, fma(t, fma(t, SIXTH * y4, HALF * y3), y2), y1)
         t -= step
     return t, abs(step)

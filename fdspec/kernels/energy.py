@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from fdspec.jit import inlined, inner
+from fdspec.jit import fma, inlined, inner
 from fdspec.kernels.oscillator import SquareForm
 from fdspec.kernels.quadrature import series_area, series_square, square_form
 from fdspec.kernels.roots import value_slope
@@ -55,11 +55,11 @@ def put_losses(plan, forms):
 @inlined
 def input_work(plan, phase, start, end, floor_area, brace_area, acceleration, rate, h):
     """Work of the ground on a piece: minus the integral of (m_f u' + m_d d') a_g, by parts."""
-    floor = acceleration * (end.u - start.u) + rate * (h * end.u - floor_area)
+    floor = fma(acceleration, end.u - start.u, rate * fma(h, end.u, -floor_area))
     if phase == STICK:
         return -plan.mass * floor
-    brace = acceleration * (end.d - start.d) + rate * (h * end.d - brace_area)
-    return -plan.storey.floor_mass * floor - plan.storey.brace_mass * brace
+    brace = fma(acceleration, end.d - start.d, rate * fma(h, end.d, -brace_area))
+    return fma(-plan.storey.floor_mass, floor, -plan.storey.brace_mass * brace)
 
 
 @inner

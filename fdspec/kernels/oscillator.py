@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fdspec.jit import inlined, inner
+from fdspec.jit import fma, inlined, inner
 
 SERIES_RADIANS = 1.0
 """Below this phase the closed form loses digits to cancellation, and the series is short."""
@@ -69,6 +69,18 @@ class SquareForm(NamedTuple):
     p11: float
 
 
+@inlined
+def dot4(a, x, b, y, c, z, d, w):
+    """Sum of four products; the first waits for the others."""
+    return fma(a, x, fma(b, y, fma(c, z, d * w)))
+
+
+@inlined
+def acceleration(x, v, g, w2, p):
+    """x'' under force over mass p."""
+    return fma(-g, v, fma(-w2, x, p))
+
+
 @inner
 def rate_bound(g, w2):
     """Bound r (1/s) on growth of derivatives: |d^k z/dt^k| <= r^k (|z| + |z'|/omega) in free motion.
@@ -98,8 +110,8 @@ def expand(c, n, x, v, g, w2, p0, p1, h):
     wh = w2 * h * h
     c[0] = x
     c[1] = v * h
-    c[2] = 0.5 * (p0 * h * h - gh * c[1] - wh * x)
-    c[3] = (p1 * h * h * h - gh * 2.0 * c[2] - wh * c[1]) * SIXTH
+    c[2] = 0.5 * fma(-wh, x, fma(-gh, c[1], p0 * h * h))
+    c[3] = SIXTH * fma(-2.0 * gh, c[2], fma(-wh, c[1], p1 * h * h * h))
     older = c[2]
     old = c[3]
     for k in range(4, n + 1):
@@ -179,15 +191,15 @@ def step_map(g, w2, h):
 def advance(step, x, v, p0, p1):
     """Displacement and velocity at the end of a step."""
     return (
-        step.xx * x + step.xv * v + step.x0 * p0 + step.x1 * p1,
-        step.vx * x + step.vv * v + step.v0 * p0 + step.v1 * p1,
+        dot4(step.xx, x, step.xv, v, step.x0, p0, step.x1, p1),
+        dot4(step.vx, x, step.vv, v, step.v0, p0, step.v1, p1),
     )
 
 
 @inlined
 def area(step, x, v, p0, p1):
     """Integral of displacement over a step."""
-    return step.ix * x + step.iv * v + step.i0 * p0 + step.i1 * p1
+    return dot4(step.ix, x, step.iv, v, step.i0, p0, step.i1, p1)
 
 
 @inlined
@@ -197,18 +209,18 @@ def opening(x, v, p0, p1, gh, wh, h):
     Sums: displacement, velocity times h, and the integral of displacement over h.
     """
     start = v * h
-    second = 0.5 * (p0 * h * h - gh * start - wh * x)
-    third = (p1 * h * h * h - gh * 2.0 * second - wh * start) * SIXTH
-    end = x + start + second + third
-    slope = start + 2.0 * second + 3.0 * third
-    area = x + 0.5 * start + INVERSE[3] * second + 0.25 * third
+    second = 0.5 * fma(-wh, x, fma(-gh, start, p0 * h * h))
+    third = SIXTH * fma(-2.0 * gh, second, fma(-wh, start, p1 * h * h * h))
+    end = x + start + (second + third)
+    slope = fma(3.0, third, fma(2.0, second, start))
+    area = fma(0.25, third, fma(INVERSE[3], second, fma(0.5, start, x)))
     return second, third, end, slope, area
 
 
 @inlined
 def term_of(k, gh, wh, old, older):
     """Term of order k of a series, from the two before it."""
-    return -(gh * INVERSE[k] * old + wh * (INVERSE[k] * INVERSE[k - 1]) * older)
+    return fma(-gh * INVERSE[k], old, -wh * (INVERSE[k] * INVERSE[k - 1]) * older)
 
 
 @inner
@@ -220,8 +232,8 @@ def ahead(x, v, g, w2, p0, p1, h, n):
     for k in range(4, n + 1):
         term = term_of(k, gh, wh, old, older)
         end += term
-        slope += k * term
-        area += INVERSE[k + 1] * term
+        slope = fma(float(k), term, slope)
+        area = fma(INVERSE[k + 1], term, area)
         older = old
         old = term
     return end, slope / h, area * h
@@ -237,8 +249,8 @@ def ahead_in_lane(x, v, g, w2, p0, p1, h, n):
         term = term_of(k, gh, wh, old, older)
         term = term if k <= n else 0.0
         end += term
-        slope += k * term
-        area += INVERSE[k + 1] * term
+        slope = fma(float(k), term, slope)
+        area = fma(INVERSE[k + 1], term, area)
         older = old
         old = term
     return end, slope / h, area * h
@@ -248,9 +260,9 @@ def ahead_in_lane(x, v, g, w2, p0, p1, h, n):
 def sine_cosine(x):
     """Sine and cosine of an angle of at most SHORT_ANGLE, to rounding, without a call."""
     y = x * x
-    sine = x + x * y * (S_3 + y * (S_5 + y * (S_7 + y * (S_9 + y * (S_11 + y * (S_13 + y * S_15))))))
-    cosine = 1.0 + y * (C_2 + y * (C_4 + y * (C_6 + y * (C_8 + y * (C_10 + y * (C_12 + y * C_14))))))
-    return sine, cosine
+    s = fma(y, fma(y, fma(y, fma(y, fma(y, fma(y, S_15, S_13), S_11), S_9), S_7), S_5), S_3)
+    c = fma(y, fma(y, fma(y, fma(y, fma(y, fma(y, C_14, C_12), C_10), C_8), C_6), C_4), C_2)
+    return fma(x * y, s, x), fma(y, c, 1.0)
 
 
 @inlined
@@ -265,19 +277,17 @@ def undamped_ahead(x, v, omega, slowness, p0, p1, h):
     rise = 2.0 * sine * sine * drift
     sine *= 2.0 * cosine * slowness
     late = (h - sine) * drift
-    pull = p0 - w2 * x
-    end = x + v * sine + pull * rise + p1 * late
-    slope = v + pull * sine + (p1 - w2 * v) * rise
-    area = x * h + v * rise + pull * late + p1 * (0.5 * h * h - rise) * drift
+    pull = fma(-w2, x, p0)
+    end = fma(p1, late, fma(pull, rise, fma(v, sine, x)))
+    slope = fma(fma(-w2, v, p1), rise, fma(pull, sine, v))
+    area = fma(p1 * drift, fma(0.5 * h, h, -rise), fma(pull, late, fma(v, rise, x * h)))
     return end, slope, area
 
 
 @inlined
 def square_integral(loss, x, v, p0, p1):
     """Integral of velocity squared over a step."""
-    return (
-        x * (loss.xx * x + 2.0 * (loss.xv * v + loss.x0 * p0 + loss.x1 * p1))
-        + v * (loss.vv * v + 2.0 * (loss.v0 * p0 + loss.v1 * p1))
-        + p0 * (loss.p00 * p0 + 2.0 * loss.p01 * p1)
-        + loss.p11 * p1 * p1
-    )
+    of_x = fma(loss.xx, x, 2.0 * fma(loss.xv, v, fma(loss.x0, p0, loss.x1 * p1)))
+    of_v = fma(loss.vv, v, 2.0 * fma(loss.v0, p0, loss.v1 * p1))
+    of_p = fma(loss.p00, p0, 2.0 * loss.p01 * p1)
+    return fma(x, of_x, fma(v, of_v, fma(p0, of_p, loss.p11 * p1 * p1)))

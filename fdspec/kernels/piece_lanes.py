@@ -7,7 +7,7 @@ one, and lead those whose phase changes to the instant.
 
 from __future__ import annotations
 
-from fdspec.jit import inlined, inner, wide
+from fdspec.jit import fma, inlined, inner, wide
 from fdspec.kernels.bounds import forcing
 from fdspec.kernels.crossing import CLEAR, CROSSES, NEAR, SETTLED, UNCLEAR, guess, nearby, rates_of, verdict
 from fdspec.kernels.oscillator import advance, ahead_in_lane, area, undamped_ahead
@@ -62,7 +62,7 @@ def take_whole(p, a0, rate):
         tau = at(p, TAU, lane)
         last = sticks | (part + 1.0 == plan.slip_steps)
         h = (plan.step if last else (part + 1.0) * plan.slip_step) - tau
-        ground = a0 + rate * tau
+        ground = fma(rate, tau, a0)
         offset = way(p, OFFSET, lane)
         force = forcing(plan, phase, offset, ground, rate)
         motion = motion_in(p, lane)
@@ -208,8 +208,8 @@ def approach(p, rate):
         g = plan.stick.g if sticks else plan.floor.g
         w2 = plan.stick.w2 if sticks else plan.floor.w2
         pace = plan.stick.rate if sticks else max(plan.floor.rate, plan.brace.rate)
-        r = rates_of(motion.u, motion.v, g, w2, force.p0 + force.p1 * t, force.p1)
-        q = rates_of(motion.d, motion.e, 0.0, plan.brace.w2, force.b0 + force.b1 * t, force.b1)
+        r = rates_of(motion.u, motion.v, g, w2, fma(force.p1, t, force.p0), force.p1)
+        q = rates_of(motion.d, motion.e, 0.0, plan.brace.w2, fma(force.b1, t, force.b0), force.b1)
         gap, to_slip, last_to_slip = step_to_slip(plan, r, offset, side)
         slide, to_stop, last_to_stop = step_to_stop(r, q, phase)
         above = (gap if sticks else slide) > 0.0

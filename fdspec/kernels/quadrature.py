@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fdspec.jit import inner
+from fdspec.jit import fma, inner
 from fdspec.kernels.oscillator import INVERSE, SquareForm, step_map
 from fdspec.kernels.roots import value_slope
 
@@ -48,7 +48,7 @@ def series_area(c, n, h, x):
     """Integral of the displacement series c over the first part x of a step of length h."""
     total = 0.0
     for k in range(n, -1, -1):
-        total = total * x + c[k] * INVERSE[k + 1]
+        total = fma(total, x, c[k] * INVERSE[k + 1])
     return total * x * h
 
 
@@ -58,7 +58,7 @@ def series_square(c, n, h, x):
     total = 0.0
     for j in range(len(NODES)):
         rise = value_slope(c, 0, n, x * NODES[j])[1]
-        total += WEIGHTS[j] * rise * rise
+        total = fma(WEIGHTS[j] * rise, rise, total)
     return total * x / h
 
 
@@ -68,5 +68,5 @@ def short_square(c, n, h):
     total = 0.0
     for j in range(len(FEW_NODES)):
         rise = value_slope(c, 0, n, FEW_NODES[j])[1]
-        total += FEW_WEIGHTS[j] * rise * rise
+        total = fma(FEW_WEIGHTS[j] * rise, rise, total)
     return total / h

@@ -14,7 +14,8 @@ from __future__ import annotations
 
 import math
 
-from fdspec.jit import inlined, inner, wide
+from fdspec.jit import fma, inlined, inner, wide
+from fdspec.kernels.oscillator import acceleration, dot4
 from fdspec.kernels.packed import (
     B_DRIFT,
     B_G,
@@ -90,27 +91,20 @@ from fdspec.kernels.types import (
 @inlined
 def carry(p, row, lane, x, v, p0, rate):
     """A linear form (four rows) in displacement, velocity, force over mass and minus its rate."""
-    return (
-        at(p, row, lane) * x
-        + at(p, row + 1, lane) * v
-        + (at(p, row + 2, lane) * p0 - at(p, row + 3, lane) * rate)
+    return dot4(
+        at(p, row, lane), x, at(p, row + 1, lane), v, at(p, row + 2, lane), p0, -at(p, row + 3, lane), rate
     )
 
 
 @inlined
 def form(p, row, lane, x, v, p0, p1):
     """A quadratic form (ten rows) in displacement, velocity, force over mass and its rate."""
-    return (
-        x
-        * (
-            at(p, row, lane) * x
-            + at(p, row + 1, lane) * v
-            + (at(p, row + 2, lane) * p0 + at(p, row + 3, lane) * p1)
-        )
-        + v * (at(p, row + 4, lane) * v + at(p, row + 5, lane) * p0 + at(p, row + 6, lane) * p1)
-        + p0 * (at(p, row + 7, lane) * p0 + at(p, row + 8, lane) * p1)
-        + at(p, row + 9, lane) * p1 * p1
+    of_x = dot4(
+        at(p, row, lane), x, at(p, row + 1, lane), v, at(p, row + 2, lane), p0, at(p, row + 3, lane), p1
     )
+    of_v = fma(at(p, row + 4, lane), v, fma(at(p, row + 5, lane), p0, at(p, row + 6, lane) * p1))
+    of_p = fma(at(p, row + 7, lane), p0, at(p, row + 8, lane) * p1)
+    return fma(x, of_x, fma(v, of_v, fma(p0, of_p, at(p, row + 9, lane) * p1 * p1)))
 
 
 @inner
@@ -124,7 +118,7 @@ def stick_lanes(p, h, ground, rate):
     """
     wide()
     third = h * THIRD
-    ground_end = ground + rate * h
+    ground_end = fma(rate, h, ground)
     steep = abs(rate)
     to_walk = 0  # integers: sums of floats would be taken one by one, in order
     to_keep = 0
@@ -139,37 +133,40 @@ def stick_lanes(p, h, ground, rate):
         u1 = carry(p, S_MAP, lane, u, v, p0, rate)
         v1 = carry(p, S_MAP + 4, lane, u, v, p0, rate)
         area = carry(p, S_MAP + 8, lane, u, v, p0, rate)
-        q0 = base - g * v - w2 * u
-        q1 = base - g * v1 - w2 * u1
+        q0 = acceleration(u, v, g, w2, base)
+        q1 = acceleration(u1, v1, g, w2, base)
         a0 = q0 - ground
         a1 = q1 - ground_end
-        swing = abs(v) + steep * at(p, S_DRIFT, lane) + abs(a0) * at(p, S_SLOW, lane)
+        swing = fma(abs(a0), at(p, S_SLOW, lane), fma(steep, at(p, S_DRIFT, lane), abs(v)))
 
         hold_u = at(p, HOLD_U, lane)
         hold_v = at(p, HOLD_V, lane)
         locked = at(p, HOLD_O, lane) * offset
-        r0 = hold_u * u + hold_v * v - locked
-        r1 = hold_u * u1 + hold_v * v1 - locked
-        rise0 = third * (hold_u * v + hold_v * a0)
-        rise1 = third * (hold_u * v1 + hold_v * a1)
-        held = max(abs(r0 + rise0), abs(r1 - rise1)) + swing * at(p, HOLD_TAIL, lane)
+        r0 = fma(hold_u, u, fma(hold_v, v, -locked))
+        r1 = fma(hold_u, u1, fma(hold_v, v1, -locked))
+        rise0 = third * fma(hold_u, v, hold_v * a0)
+        rise1 = third * fma(hold_u, v1, hold_v * a1)
+        held = fma(swing, at(p, HOLD_TAIL, lane), max(abs(r0 + rise0), abs(r1 - rise1)))
         held = max(max(abs(r0), abs(r1)), held)
 
         top_a = max(at(p, PEAK_ACCELERATION, lane), abs(q1))
         top_s = max(at(p, PEAK_SHEAR, lane), at(p, MASS, lane) * abs(q1))
         top_u = max(at(p, PEAK_DISPLACEMENT, lane), abs(u1))
         top_v = max(at(p, PEAK_VELOCITY, lane), abs(v1))
-        crest_u = max(abs(u + third * v), abs(u1 - third * v1)) + swing * at(p, S_TAIL_U, lane)
-        crest_v = max(abs(v + third * a0), abs(v1 - third * a1)) + swing * at(p, S_TAIL_V, lane)
-        crest_q = max(abs(q0 - third * (g * a0 + w2 * v)), abs(q1 + third * (g * a1 + w2 * v1)))
-        crest_q += swing * at(p, S_TAIL_Q, lane)
+        crest_u = max(abs(fma(third, v, u)), abs(fma(-third, v1, u1)))
+        crest_u = fma(swing, at(p, S_TAIL_U, lane), crest_u)
+        crest_v = max(abs(fma(third, a0, v)), abs(fma(-third, a1, v1)))
+        crest_v = fma(swing, at(p, S_TAIL_V, lane), crest_v)
+        fall0, fall1 = fma(g, a0, w2 * v), fma(g, a1, w2 * v1)
+        crest_q = max(abs(fma(-third, fall0, q0)), abs(fma(third, fall1, q1)))
+        crest_q = fma(swing, at(p, S_TAIL_Q, lane), crest_q)
         sticks = at(p, PHASE, lane) == 0.0
         alert = (held >= at(p, LIMIT, lane)) | (at(p, TOUCHING, lane) != 0.0)
         peak = (crest_q > min(top_a, top_s * at(p, LIGHT, lane))) | (crest_u > top_u) | (crest_v > top_v)
         moves = sticks & (not alert)
         to_walk |= (1 << lane) if sticks & alert else 0
         to_keep |= (1 << lane) if moves & peak else 0
-        moved = ground * (u1 - u) + rate * (h * u1 - area)
+        moved = fma(ground, u1 - u, rate * fma(h, u1, -area))
         p[FROM_U * WIDTH + lane] = u
         p[FROM_V * WIDTH + lane] = v
         p[U * WIDTH + lane] = u1 if moves else u
@@ -192,7 +189,7 @@ def slip_lanes(p, h, ground, rate):
     """Advance the slipping lanes in which nothing happens; return those to walk, and those to keep."""
     wide()
     third = h * THIRD
-    ground_end = ground + rate * h
+    ground_end = fma(rate, h, ground)
     steep = abs(rate)
     shake = max(abs(ground), abs(ground_end))
     to_walk = 0
@@ -216,46 +213,49 @@ def slip_lanes(p, h, ground, rate):
         d1 = carry(p, B_MAP, lane, d, e, b0, b1)
         e1 = carry(p, B_MAP + 4, lane, d, e, b0, b1)
         brace_area = carry(p, B_MAP + 8, lane, d, e, b0, b1)
-        q0 = base - g * v - w2 * u
-        q1 = base - g * v1 - w2 * u1
+        q0 = acceleration(u, v, g, w2, base)
+        q1 = acceleration(u1, v1, g, w2, base)
         a0 = q0 - ground
         a1 = q1 - ground_end
-        swing = abs(v) + steep * at(p, F_DRIFT, lane) + abs(a0) * at(p, F_SLOW, lane)
+        swing = fma(abs(a0), at(p, F_SLOW, lane), fma(steep, at(p, F_DRIFT, lane), abs(v)))
 
         drift = -b1 * at(p, B_DRIFT, lane)
         g_b = at(p, B_G, lane)
         w2_b = at(p, B_W2, lane)
-        c0 = b0 - g_b * e - w2_b * d
-        c1 = b0 - b1 * h - g_b * e1 - w2_b * d1
+        c0 = acceleration(d, e, g_b, w2_b, b0)
+        c1 = acceleration(d1, e1, g_b, w2_b, fma(-b1, h, b0))
         ring_v = e - drift
         ring_a = c0 * at(p, B_SLOW, lane)
-        ring = math.sqrt(ring_v * ring_v + ring_a * ring_a)
+        ring = math.sqrt(fma(ring_v, ring_v, ring_a * ring_a))
         tail_v = swing * at(p, F_TAIL_V, lane)
-        inside = min(sign * (v + third * a0), sign * (v1 - third * a1)) - tail_v
+        inside = min(sign * fma(third, a0, v), sign * fma(-third, a1, v1)) - tail_v
         slowest = min(min(sign * v, sign * v1), inside) - (sign * drift + ring)
         w0 = sign * (v - e)
         w1 = sign * (v1 - e1)
-        inside = min(w0 + sign * third * (a0 - c0), w1 - sign * third * (a1 - c1))
-        inside -= tail_v + ring * at(p, B_TAIL_E, lane)
+        inside = min(fma(sign * third, a0 - c0, w0), fma(-sign * third, a1 - c1, w1))
+        inside -= fma(ring, at(p, B_TAIL_E, lane), tail_v)
         slowest = max(slowest, min(min(w0, w1), inside))
 
         top_a = max(at(p, PEAK_ACCELERATION, lane), abs(q1))
         top_u = max(at(p, PEAK_DISPLACEMENT, lane), abs(u1))
         top_v = max(at(p, PEAK_VELOCITY, lane), abs(v1))
-        crest_u = max(abs(u + third * v), abs(u1 - third * v1)) + swing * at(p, F_TAIL_U, lane)
-        crest_v = max(abs(v + third * a0), abs(v1 - third * a1)) + tail_v
-        crest_q = max(abs(q0 - third * (g * a0 + w2 * v)), abs(q1 + third * (g * a1 + w2 * v1)))
-        crest_q += swing * at(p, F_TAIL_Q, lane)
+        crest_u = max(abs(fma(third, v, u)), abs(fma(-third, v1, u1)))
+        crest_u = fma(swing, at(p, F_TAIL_U, lane), crest_u)
+        crest_v = max(abs(fma(third, a0, v)), abs(fma(-third, a1, v1))) + tail_v
+        fall0, fall1 = fma(g, a0, w2 * v), fma(g, a1, w2 * v1)
+        crest_q = max(abs(fma(-third, fall0, q0)), abs(fma(third, fall1, q1)))
+        crest_q = fma(swing, at(p, F_TAIL_Q, lane), crest_q)
         # Base shear is the inertia of both masses; the brace itself accelerates at most by ring times omega.
         m = at(p, FLOOR_MASS, lane)
         m_b = at(p, BRACE_MASS, lane)
-        s0 = m * q0 + m_b * (c0 + ground)
-        s1 = m * q1 + m_b * (c1 + ground_end)
-        rise0 = third * (m * (g * a0 + w2 * v) + m_b * (g_b * c0 + w2_b * e))
-        rise1 = third * (m * (g * a1 + w2 * v1) + m_b * (g_b * c1 + w2_b * e1))
+        s0 = fma(m, q0, m_b * (c0 + ground))
+        s1 = fma(m, q1, m_b * (c1 + ground_end))
+        rise0 = third * fma(m, fall0, m_b * fma(g_b, c0, w2_b * e))
+        rise1 = third * fma(m, fall1, m_b * fma(g_b, c1, w2_b * e1))
         inside = max(abs(s0 - rise0), abs(s1 + rise1))
-        inside += m * swing * at(p, F_TAIL_Q, lane) + m_b * ring * at(p, B_TAIL_Q, lane)
-        crest_s = m * max(max(abs(q0), abs(q1)), crest_q) + m_b * (ring * at(p, B_OMEGA, lane) + shake)
+        inside += fma(m * swing, at(p, F_TAIL_Q, lane), m_b * ring * at(p, B_TAIL_Q, lane))
+        crest_s = m_b * fma(ring, at(p, B_OMEGA, lane), shake)
+        crest_s = fma(m, max(max(abs(q0), abs(q1)), crest_q), crest_s)
         crest_s = min(crest_s, max(max(abs(s0), abs(s1)), inside))
         shear = max(at(p, PEAK_SHEAR, lane), abs(s1))
         slips = sign != 0.0
@@ -266,8 +266,8 @@ def slip_lanes(p, h, ground, rate):
         to_walk |= (1 << lane) if slips & alert else 0
         to_keep |= (1 << lane) if moves & peak else 0
         moved = ground * (u1 - u)
-        work = m * (moved + rate * (h * u1 - floor_area))
-        work += m_b * (ground * (d1 - d) + rate * (h * d1 - brace_area))
+        work = m * fma(rate, fma(h, u1, -floor_area), moved)
+        work = fma(m_b, fma(ground, d1 - d, rate * fma(h, d1, -brace_area)), work)
         p[FROM_U * WIDTH + lane] = u if slips else at(p, FROM_U, lane)
         p[FROM_V * WIDTH + lane] = v if slips else at(p, FROM_V, lane)
         p[U * WIDTH + lane] = u1 if moves else u

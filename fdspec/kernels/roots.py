@@ -18,7 +18,7 @@ sliding velocity): p(x) = x^lo q(x), and q is searched instead.
 
 from __future__ import annotations
 
-from fdspec.jit import inlined, inner
+from fdspec.jit import fma, inlined, inner
 
 NO_ROOT = 2.0
 """Returned where there is no root in [0, 1]."""
@@ -58,12 +58,12 @@ def value_slope(c, lo, n, x):
     odd_slope = 0.0
     k -= 2
     while k >= lo:
-        odd_slope = odd_slope * square + odd
-        even_slope = even_slope * square + even
-        odd = odd * square + c[k + 1]
-        even = even * square + c[k]
+        odd_slope = fma(odd_slope, square, odd)
+        even_slope = fma(even_slope, square, even)
+        odd = fma(odd, square, c[k + 1])
+        even = fma(even, square, c[k])
         k -= 2
-    return even + x * odd, 2.0 * x * (even_slope + x * odd_slope) + odd
+    return fma(x, odd, even), fma(2.0 * x, fma(x, odd_slope, even_slope), odd)
 
 
 @inner
@@ -71,7 +71,7 @@ def value(c, n, x):
     """Value of the polynomial of degree n at x."""
     result = c[n]
     for k in range(n - 1, -1, -1):
-        result = result * x + c[k]
+        result = fma(result, x, c[k])
     return result
 
 
@@ -80,7 +80,7 @@ def curvature(c, lo, n, x):
     """Second derivative of q at x."""
     result = 0.0
     for k in range(n - lo, 1, -1):
-        result = result * x + k * (k - 1) * c[k + lo]
+        result = fma(result, x, k * (k - 1) * c[k + lo])
     return result
 
 
@@ -90,7 +90,7 @@ def clears(start, start_rise, end, end_rise, fourth):
 
     Values at both ends, slopes times the step, and a bound on the fourth derivative times step^4.
     """
-    inside = min(start + start_rise * THIRD, end - end_rise * THIRD)
+    inside = min(fma(start_rise, THIRD, start), fma(-end_rise, THIRD, end))
     return (start > 0.0) & (end > 0.0) & (inside >= fourth * TAIL)
 
 
@@ -99,7 +99,7 @@ def fourth_bound(c, lo, n):
     """Upper bound on |q''''| over [0, 1]."""
     bound = 0.0
     for k in range(4, n - lo + 1):
-        bound += k * (k - 1) * (k - 2) * (k - 3) * abs(c[k + lo])
+        bound = fma(float(k * (k - 1) * (k - 2) * (k - 3)), abs(c[k + lo]), bound)
     return bound
 
 

@@ -5,7 +5,7 @@ Study, equations (5) to (7).
 
 from __future__ import annotations
 
-from fdspec.jit import inlined, inner
+from fdspec.jit import fma, inlined, inner
 from fdspec.kernels.bounds import crest, floor_fourths, floor_peaks, ready, relative_acceleration, swing
 from fdspec.kernels.crossing import (
     ATTEMPTS,
@@ -23,7 +23,7 @@ from fdspec.kernels.crossing import (
     step_to_zero,
     verdict,
 )
-from fdspec.kernels.oscillator import ahead, undamped_ahead
+from fdspec.kernels.oscillator import ahead, dot4, undamped_ahead
 from fdspec.kernels.roots import first_root, largest_magnitude
 from fdspec.kernels.types import Motion, Peaks
 
@@ -51,15 +51,17 @@ def slip_course(plan, start, end, force, phase, kick, h):
     f = plan.floor
     b = plan.brace
     a0 = relative_acceleration(f, start.u, start.v, force.p0)
-    a1 = relative_acceleration(f, end.u, end.v, force.p0 + force.p1 * h)
+    a1 = relative_acceleration(f, end.u, end.v, fma(force.p1, h, force.p0))
     b0 = relative_acceleration(b, start.d, start.e, force.b0)
-    b1 = relative_acceleration(b, end.d, end.e, force.b0 + force.b1 * h)
-    j0 = force.p1 - f.g * a0 - f.w2 * start.v
-    k0 = force.b1 - b.g * b0 - b.w2 * start.e
+    b1 = relative_acceleration(b, end.d, end.e, fma(force.b1, h, force.b0))
+    j0 = relative_acceleration(f, start.v, a0, force.p1)
+    k0 = relative_acceleration(b, start.e, b0, force.b1)
+    j1 = relative_acceleration(f, end.v, a1, force.p1)
+    k1 = relative_acceleration(b, end.e, b1, force.b1)
     _, fourth_v = floor_fourths(f, start.v, a0, force.p1, h)
     _, fourth_e = brace_fourths(plan, start, b0, force, h)
     fourth = fourth_v + fourth_e
-    twist = b.g * k0 + b.w2 * b0 - f.g * j0 - f.w2 * a0
+    twist = fma(b.g, k0, fma(b.w2, b0, fma(-f.g, j0, -f.w2 * a0)))
     noise = NOISE * h * h * (abs(j0) + abs(k0))
     leaves = leaves_zero(h * kick, phase * h * h * (j0 - k0), phase * h * h * h * twist, fourth, noise)
     course = Course(
@@ -68,7 +70,7 @@ def slip_course(plan, start, end, force, phase, kick, h):
         phase * h * h * (j0 - k0),
         phase * (end.v - end.e),
         phase * h * (a1 - b1),
-        phase * h * h * (force.p1 - f.g * a1 - f.w2 * end.v - (force.b1 - b.g * b1 - b.w2 * end.e)),
+        phase * h * h * (j1 - k1),
         fourth,
         fourth * max(f.rate, b.rate) * h,
     )
@@ -126,8 +128,8 @@ def locate_stop(plan, start, force, phase, t, h):
     high = h
     for _ in range(ATTEMPTS):
         motion, swept, swung = slip_ahead(plan, start, force, t)
-        r = rates_of(motion.u, motion.v, f.g, f.w2, force.p0 + force.p1 * t, force.p1)
-        q = rates_of(motion.d, motion.e, 0.0, b.w2, force.b0 + force.b1 * t, force.b1)
+        r = rates_of(motion.u, motion.v, f.g, f.w2, fma(force.p1, t, force.p0), force.p1)
+        q = rates_of(motion.d, motion.e, 0.0, b.w2, fma(force.b1, t, force.b0), force.b1)
         slide, later, last = step_to_stop(r, q, phase)
         if slide > 0.0:
             low = t
@@ -164,11 +166,15 @@ def search_slip(floor, brace, slide, n, h, phase, kick):
 @inlined
 def base_shear(storey, motion):
     """Force (N) of columns and brace on the ground."""
-    return (
-        storey.floor_stiffness * motion.u
-        + storey.floor_damping * motion.v
-        + storey.brace_stiffness * motion.d
-        + storey.brace_damping * motion.e
+    return dot4(
+        storey.floor_stiffness,
+        motion.u,
+        storey.floor_damping,
+        motion.v,
+        storey.brace_stiffness,
+        motion.d,
+        storey.brace_damping,
+        motion.e,
     )
 
 
@@ -180,19 +186,19 @@ def shear_bounds(plan, start, end, force, h, peak):
     b = plan.brace
     k, c, kd, cd = storey.floor_stiffness, storey.floor_damping, storey.brace_stiffness, storey.brace_damping
     a0 = relative_acceleration(f, start.u, start.v, force.p0)
-    a1 = relative_acceleration(f, end.u, end.v, force.p0 + force.p1 * h)
+    a1 = relative_acceleration(f, end.u, end.v, fma(force.p1, h, force.p0))
     b0 = relative_acceleration(b, start.d, start.e, force.b0)
-    b1 = relative_acceleration(b, end.d, end.e, force.b0 + force.b1 * h)
+    b1 = relative_acceleration(b, end.d, end.e, fma(force.b1, h, force.b0))
     fourth_u, fourth_v = floor_fourths(f, start.v, a0, force.p1, h)
     fourth_d, fourth_e = brace_fourths(plan, start, b0, force, h)
     s0 = base_shear(storey, start)
     s1 = base_shear(storey, end)
     inside = crest(
         s0,
-        h * (k * start.v + c * a0 + kd * start.e + cd * b0),
+        h * dot4(k, start.v, c, a0, kd, start.e, cd, b0),
         s1,
-        h * (k * end.v + c * a1 + kd * end.e + cd * b1),
-        k * fourth_u + c * fourth_v + kd * fourth_d + cd * fourth_e,
+        h * dot4(k, end.v, c, a1, kd, end.e, cd, b1),
+        dot4(k, fourth_u, c, fourth_v, kd, fourth_d, cd, fourth_e),
     )
     shear = max(peak, abs(s1))
     return shear, inside > shear

@@ -5,7 +5,7 @@ Study, equations (2) to (4).
 
 from __future__ import annotations
 
-from fdspec.jit import inlined, inner
+from fdspec.jit import fma, inlined, inner
 from fdspec.kernels.bounds import floor_fourths, floor_peaks, relative_acceleration
 from fdspec.kernels.crossing import (
     ATTEMPTS,
@@ -30,7 +30,7 @@ from fdspec.kernels.types import STICK, Motion
 @inlined
 def held_force(plan, u, v, offset):
     """Reaction (N) of the sticking damper."""
-    return plan.hold_u * u + plan.hold_v * v - plan.hold_offset * offset
+    return fma(plan.hold_u, u, fma(plan.hold_v, v, -plan.hold_offset * offset))
 
 
 @inlined
@@ -44,21 +44,21 @@ def stick_course(plan, start, end, force, offset, h):
     r0 = held_force(plan, start.u, start.v, offset)
     r1 = held_force(plan, end.u, end.v, offset)
     a0 = relative_acceleration(b, start.u, start.v, force.p0)
-    a1 = relative_acceleration(b, end.u, end.v, force.p0 + force.p1 * h)
-    rise0 = h * (plan.hold_u * start.v + plan.hold_v * a0)
-    rise1 = h * (plan.hold_u * end.v + plan.hold_v * a1)
+    a1 = relative_acceleration(b, end.u, end.v, fma(force.p1, h, force.p0))
+    rise0 = h * fma(plan.hold_u, start.v, plan.hold_v * a0)
+    rise1 = h * fma(plan.hold_u, end.v, plan.hold_v * a1)
     fourth_u, fourth_v = floor_fourths(b, start.v, a0, force.p1, h)
     fourth = abs(plan.hold_u) * fourth_u + abs(plan.hold_v) * fourth_v
     side = 1.0 if r1 > 0.0 else -1.0
-    j0 = force.p1 - b.g * a0 - b.w2 * start.v
-    j1 = force.p1 - b.g * a1 - b.w2 * end.v
+    j0 = relative_acceleration(b, start.v, a0, force.p1)
+    j1 = relative_acceleration(b, end.v, a1, force.p1)
     course = Course(
         limit - side * r0,
         -side * rise0,
-        -side * h * h * (plan.hold_u * a0 + plan.hold_v * j0),
+        -side * h * h * fma(plan.hold_u, a0, plan.hold_v * j0),
         limit - side * r1,
         -side * rise1,
-        -side * h * h * (plan.hold_u * a1 + plan.hold_v * j1),
+        -side * h * h * fma(plan.hold_u, a1, plan.hold_v * j1),
         fourth,
         fourth * b.rate * h,
     )
@@ -94,10 +94,10 @@ def step_to_slip(plan, r, offset, side):
     gap = plan.storey.slip_force - side * held_force(plan, r.x, r.v, offset)
     later, last = step_to_zero(
         gap,
-        -side * (plan.hold_u * r.v + plan.hold_v * r.a),
-        -side * (plan.hold_u * r.a + plan.hold_v * r.j),
-        -side * (plan.hold_u * r.j + plan.hold_v * r.s),
-        -side * (plan.hold_u * r.s + plan.hold_v * r.c),
+        -side * fma(plan.hold_u, r.v, plan.hold_v * r.a),
+        -side * fma(plan.hold_u, r.a, plan.hold_v * r.j),
+        -side * fma(plan.hold_u, r.j, plan.hold_v * r.s),
+        -side * fma(plan.hold_u, r.s, plan.hold_v * r.c),
     )
     return gap, later, last
 
@@ -113,7 +113,7 @@ def locate_slip(plan, start, force, offset, side, t, h):
     high = h
     for _ in range(ATTEMPTS):
         motion, swept = stick_ahead(plan, start, force, offset, t)
-        r = rates_of(motion.u, motion.v, b.g, b.w2, force.p0 + force.p1 * t, force.p1)
+        r = rates_of(motion.u, motion.v, b.g, b.w2, fma(force.p1, t, force.p0), force.p1)
         gap, later, last = step_to_slip(plan, r, offset, side)
         if gap > 0.0:
             low = t

@@ -8,7 +8,7 @@ import pytest
 from llvmlite.binding import get_host_cpu_features
 from numba import config
 
-from fdspec.jit import wide
+from fdspec.jit import fma, wide
 
 needs_wide_vectors = pytest.mark.skipif(
     bool(config.DISABLE_JIT) or not get_host_cpu_features().get("avx512f"),
@@ -43,3 +43,18 @@ def test_asking_changes_no_number() -> None:
     numba.njit(scaled)(x, 0.3)
     numba.njit(scaled_widely)(y, 0.3)
     np.testing.assert_array_equal(x, y)
+
+
+def fused(a: float, b: float, c: float) -> float:
+    return fma(a, b, c)
+
+
+@pytest.mark.skipif(bool(config.DISABLE_JIT), reason="Python rounds the product first")
+def test_a_fused_sum_is_rounded_once() -> None:
+    x = 1.0 + 2.0**-30
+    assert x * x - (x * x) == 0.0
+    assert numba.njit(fused)(x, x, -(x * x)) == 2.0**-60
+
+
+def test_a_fused_sum_without_rounding_is_the_sum() -> None:
+    assert numba.njit(fused)(3.0, -0.5, 4.0) == 2.5
