@@ -12,6 +12,7 @@ import numpy as np
 
 from fdspec.jit import inner
 from fdspec.kernels.bounds import floor_peaks
+from fdspec.kernels.oscillator import series_order
 from fdspec.kernels.packed import (
     CREST_Q,
     CREST_U,
@@ -64,16 +65,16 @@ def settle(p, lane, plan, crest, floor, search):
         at(p, PEAK_VELOCITY, lane),
         at(p, PEAK_SHEAR, lane),
     )
-    branch, mass, order = plan.stick, plan.mass, plan.stick_order
+    branch, mass = plan.stick, plan.mass
     if crest[SLIPS] != 0.0:
-        branch, mass, order = plan.floor, 0.0, plan.floor_order
+        branch, mass = plan.floor, 0.0
     peaks = floor_peaks(
         branch,
         crest[BASE],
         mass,
         floor,
         search,
-        int(order),
+        series_order(branch.rate * plan.step),
         0.0,
         Motion(crest[START_U], crest[START_V], 0.0, 0.0),
         Motion(crest[STOP_U], crest[STOP_V], 0.0, 0.0),

@@ -30,7 +30,10 @@ S_3, S_5, S_7, S_9, S_11, S_13, S_15 = ((-1.0) ** k / math.factorial(2 * k + 1) 
 C_2, C_4, C_6, C_8, C_10, C_12, C_14 = ((-1.0) ** k / math.factorial(2 * k) for k in range(1, 8))
 """Coefficients of sine and cosine."""
 
-MOST = 21
+LAST_TERM = 1e-17
+"""A series ends with a term below this, relative to the motion; what it leaves out is far below rounding."""
+
+MOST = 19
 """Order of the longest series that is written out for lanes: that of a radian."""
 
 SHORT_ANGLE = 0.55
@@ -98,7 +101,7 @@ def series_order(theta):
     for k in range(1, TERMS - 1):
         term *= theta / k
         order = k
-        if term < 1e-19 and k >= 5:
+        if term < LAST_TERM and k >= 5:
             break
     return order
 
@@ -121,9 +124,15 @@ def expand(c, n, x, v, g, w2, p0, p1, h):
         old = term
 
 
+@inlined
+def term_of(k, gh, wh, old, older):
+    """Term of order k of a series, from the two before it."""
+    return fma(-gh * INVERSE[k], old, -wh * (INVERSE[k] * INVERSE[k - 1]) * older)
+
+
 @inner
-def series_column(x, v, g, w2, p0, p1, h):
-    """Displacement, velocity and integral of displacement after h, by the series."""
+def series_column(x, v, g, w2, p0, p1, h, n):
+    """Displacement, velocity and integral of displacement after h, by a series of order n."""
     gh = g * h
     wh = w2 * h * h
     older = x
@@ -131,16 +140,16 @@ def series_column(x, v, g, w2, p0, p1, h):
     end = older + old
     slope = old
     area = older + 0.5 * old
-    for k in range(2, TERMS):
+    for k in range(2, n + 1):
         drive = 0.0
         if k == 2:
-            drive = p0 * h * h
+            drive = 0.5 * p0 * h * h
         elif k == 3:
-            drive = p1 * h * h * h
-        term = (drive - gh * (k - 1) * old - wh * older) / (k * (k - 1))
+            drive = SIXTH * p1 * h * h * h
+        term = drive + term_of(k, gh, wh, old, older)
         end += term
         slope += k * term
-        area += term / (k + 1)
+        area += term * INVERSE[k + 1]
         older = old
         old = term
     return end, slope / h, area * h
@@ -149,11 +158,13 @@ def series_column(x, v, g, w2, p0, p1, h):
 @inner
 def step_map(g, w2, h):
     """The map of one step of length h, by the series for short steps, in closed form for long ones."""
-    if rate_bound(g, w2) * h <= SERIES_RADIANS:
-        xx, vx, ix = series_column(1.0, 0.0, g, w2, 0.0, 0.0, h)
-        xv, vv, iv = series_column(0.0, 1.0, g, w2, 0.0, 0.0, h)
-        x0, v0, i0 = series_column(0.0, 0.0, g, w2, 1.0, 0.0, h)
-        x1, v1, i1 = series_column(0.0, 0.0, g, w2, 0.0, 1.0, h)
+    theta = rate_bound(g, w2) * h
+    if theta <= SERIES_RADIANS:
+        n = 3 + series_order(theta)  # the forces' terms begin that much later
+        xx, vx, ix = series_column(1.0, 0.0, g, w2, 0.0, 0.0, h, n)
+        xv, vv, iv = series_column(0.0, 1.0, g, w2, 0.0, 0.0, h, n)
+        x0, v0, i0 = series_column(0.0, 0.0, g, w2, 1.0, 0.0, h, n)
+        x1, v1, i1 = series_column(0.0, 0.0, g, w2, 0.0, 1.0, h, n)
         return StepMap(xx, xv, x0, x1, vx, vv, v0, v1, ix, iv, i0, i1)
     a = 0.5 * g
     square = w2 - a * a
@@ -203,24 +214,23 @@ def area(step, x, v, p0, p1):
 
 
 @inlined
-def opening(x, v, p0, p1, gh, wh, h):
-    """Terms of second and third order of a series over h, and the sums up to there.
+def opening(x, v, p0, p1, g, w2, h):
+    """Terms of second and third order of a series over h, over h, and the sums of all up to there.
 
-    Sums: displacement, velocity times h, and the integral of displacement over h.
+    Sums: rise of displacement over h; velocity; what `closing` makes the integral of displacement from.
     """
-    start = v * h
-    second = 0.5 * fma(-wh, x, fma(-gh, start, p0 * h * h))
-    third = SIXTH * fma(-2.0 * gh, second, fma(-wh, start, p1 * h * h * h))
-    end = x + start + (second + third)
-    slope = fma(3.0, third, fma(2.0, second, start))
-    area = fma(0.25, third, fma(INVERSE[3], second, fma(0.5, start, x)))
-    return second, third, end, slope, area
+    second = 0.5 * h * acceleration(x, v, g, w2, p0)
+    third = SIXTH * h * fma(-2.0 * g, second, h * fma(-w2, v, p1))
+    rise = v + (second + third)
+    slope = fma(3.0, third, fma(2.0, second, v))
+    area = fma(0.25, third, fma(INVERSE[3], second, 0.5 * v))
+    return second, third, rise, slope, area
 
 
 @inlined
-def term_of(k, gh, wh, old, older):
-    """Term of order k of a series, from the two before it."""
-    return fma(-gh * INVERSE[k], old, -wh * (INVERSE[k] * INVERSE[k - 1]) * older)
+def closing(x, h, rise, slope, area):
+    """Displacement, velocity and the integral of displacement from a series' sums."""
+    return fma(h, rise, x), slope, h * fma(h, area, x)
 
 
 @inner
@@ -228,15 +238,15 @@ def ahead(x, v, g, w2, p0, p1, h, n):
     """Displacement and velocity after h, and the integral of displacement, by a series of order n."""
     gh = g * h
     wh = w2 * h * h
-    older, old, end, slope, area = opening(x, v, p0, p1, gh, wh, h)
+    older, old, rise, slope, area = opening(x, v, p0, p1, g, w2, h)
     for k in range(4, n + 1):
         term = term_of(k, gh, wh, old, older)
-        end += term
+        rise += term
         slope = fma(float(k), term, slope)
         area = fma(INVERSE[k + 1], term, area)
         older = old
         old = term
-    return end, slope / h, area * h
+    return closing(x, h, rise, slope, area)
 
 
 @inlined
@@ -244,16 +254,16 @@ def ahead_in_lane(x, v, g, w2, p0, p1, h, n):
     """The same numbers for an order of at most MOST, by a loop of known length, which lanes can share."""
     gh = g * h
     wh = w2 * h * h
-    older, old, end, slope, area = opening(x, v, p0, p1, gh, wh, h)
+    older, old, rise, slope, area = opening(x, v, p0, p1, g, w2, h)
     for k in range(4, MOST + 1):
         term = term_of(k, gh, wh, old, older)
         term = term if k <= n else 0.0
-        end += term
+        rise += term
         slope = fma(float(k), term, slope)
         area = fma(INVERSE[k + 1], term, area)
         older = old
         old = term
-    return end, slope / h, area * h
+    return closing(x, h, rise, slope, area)
 
 
 @inlined

@@ -68,8 +68,8 @@ _AT += 5
 # Its piece: length, ground acceleration, forces, motion at its end with integrals, verdict and crossing.
 LENGTH, GROUND, FORCE_P, FORCE_B, END_U, END_V, END_D, END_E, SWEPT, SWUNG = range(_AT, _AT + 10)
 _AT += 10
-CROSSING, SIDE, TRIAL, LOW, HIGH, SEEKS, BEGIN, BEGIN_RISE, FINISH, FINISH_RISE = range(_AT, _AT + 10)
-N_ROWS = _AT + 10
+CROSSING, SIDE, TRIAL, LOW, HIGH, SEEKS, BEGIN, BEGIN_RISE, FINISH, FINISH_RISE, SHARE = range(_AT, _AT + 11)
+N_ROWS = _AT + 11
 
 
 @inlined

@@ -9,7 +9,21 @@ from __future__ import annotations
 
 from fdspec.jit import fma, inlined, inner, wide
 from fdspec.kernels.bounds import forcing
-from fdspec.kernels.crossing import CLEAR, CROSSES, NEAR, SETTLED, UNCLEAR, guess, nearby, rates_of, verdict
+from fdspec.kernels.crossing import (
+    CLEAR,
+    CROSSES,
+    NEAR,
+    SETTLED,
+    UNCLEAR,
+    Fall,
+    dip_verdict,
+    fall_of,
+    guess,
+    nearby,
+    rates_of,
+    step_to_zero,
+    verdict,
+)
 from fdspec.kernels.oscillator import advance, ahead_in_lane, area, undamped_ahead
 from fdspec.kernels.packed import (
     BEGIN,
@@ -30,6 +44,7 @@ from fdspec.kernels.packed import (
     ON_WAY,
     PART,
     SEEKS,
+    SHARE,
     SIDE,
     SWEPT,
     SWUNG,
@@ -39,8 +54,8 @@ from fdspec.kernels.packed import (
     WIDTH,
     at,
 )
-from fdspec.kernels.slip import slip_course, step_to_stop
-from fdspec.kernels.stick import step_to_slip, stick_course
+from fdspec.kernels.slip import slide_rates, slip_course
+from fdspec.kernels.stick import gap_rates, stick_course
 from fdspec.kernels.types import KICK, OFFSET, PHASE, Motion
 from fdspec.kernels.way import end_in, force_in, motion_in, plan_in, way
 
@@ -125,21 +140,23 @@ def take_parts(p, rate):
 
 
 @inlined
-def note(p, lane, mine, crosses, side, course):
+def note(p, lane, mine, crosses, side, fall):
     """Put down for lanes of one phase whether they cross, and between what."""
     p[CROSSING * WIDTH + lane] = (1.0 if crosses else 0.0) if mine else at(p, CROSSING, lane)
     p[SIDE * WIDTH + lane] = side if mine else at(p, SIDE, lane)
-    p[BEGIN * WIDTH + lane] = course.start if mine else at(p, BEGIN, lane)
-    p[BEGIN_RISE * WIDTH + lane] = course.start_rise if mine else at(p, BEGIN_RISE, lane)
-    p[FINISH * WIDTH + lane] = course.end if mine else at(p, FINISH, lane)
-    p[FINISH_RISE * WIDTH + lane] = course.end_rise if mine else at(p, FINISH_RISE, lane)
+    p[BEGIN * WIDTH + lane] = fall.start if mine else at(p, BEGIN, lane)
+    p[BEGIN_RISE * WIDTH + lane] = fall.start_rise if mine else at(p, BEGIN_RISE, lane)
+    p[FINISH * WIDTH + lane] = fall.end if mine else at(p, FINISH, lane)
+    p[FINISH_RISE * WIDTH + lane] = fall.end_rise if mine else at(p, FINISH_RISE, lane)
+    p[SHARE * WIDTH + lane] = fall.share if mine else at(p, SHARE, lane)
 
 
 @inner
-def judge_stick(p, rate, lost):
+def judge_stick(p, rate):
     """Find out what happens in the lanes that stick; return those whose phase changes, and those in doubt."""
     wide()
     seeks = 0
+    doubts = 0
     for lane in range(WIDTH):
         plan = plan_in(p, lane)
         sticks = way(p, PHASE, lane) == 0.0
@@ -149,16 +166,17 @@ def judge_stick(p, rate, lost):
         found = verdict(course) if one_sided else UNCLEAR
         mine = sticks & (at(p, ON_WAY, lane) != 0.0)
         seeks |= (1 << lane) if mine & (found == CROSSES) else 0
-        lost |= (1 << lane) if mine & (found == UNCLEAR) else 0
-        note(p, lane, sticks, found == CROSSES, side, course)
-    return seeks, lost
+        doubts |= (1 << lane) if mine & (found == UNCLEAR) else 0
+        note(p, lane, sticks, found == CROSSES, side, fall_of(course))
+    return seeks, doubts
 
 
 @inner
-def judge_slip(p, rate, lost):
+def judge_slip(p, rate):
     """Find out what happens in the lanes that slip; return those whose phase changes, and those in doubt."""
     wide()
     seeks = 0
+    doubts = 0
     for lane in range(WIDTH):
         plan = plan_in(p, lane)
         phase = way(p, PHASE, lane)
@@ -171,8 +189,36 @@ def judge_slip(p, rate, lost):
         found = begins if kick >= 0.0 else verdict(course)
         mine = slips & (at(p, ON_WAY, lane) != 0.0)
         seeks |= (1 << lane) if mine & (found == CROSSES) else 0
+        doubts |= (1 << lane) if mine & (found == UNCLEAR) else 0
+        note(p, lane, slips, found == CROSSES, phase, fall_of(course))
+    return seeks, doubts
+
+
+@inner
+def look_closer(p, rate, doubts):
+    """Judge lanes in doubt by the bottoms of their dips; return those that cross, and which still doubt."""
+    wide()
+    seeks = 0
+    lost = 0
+    for lane in range(WIDTH):
+        plan = plan_in(p, lane)
+        phase = way(p, PHASE, lane)
+        start, end = motion_in(p, lane), end_in(p, lane)
+        force, h = force_in(p, rate, lane), at(p, LENGTH, lane)
+        kick = way(p, KICK, lane)
+        gap, side, one_sided = stick_course(plan, start, end, force, way(p, OFFSET, lane), h)
+        slide, _ = slip_course(plan, start, end, force, phase, kick, h)
+        held, held_fall = dip_verdict(gap)
+        slid, slid_fall = dip_verdict(slide)
+        sticks = phase == 0.0
+        held = held if one_sided else UNCLEAR
+        slid = UNCLEAR if kick >= 0.0 else slid
+        found = held if sticks else slid
+        mine = (doubts >> lane & 1) != 0
+        seeks |= (1 << lane) if mine & (found == CROSSES) else 0
         lost |= (1 << lane) if mine & (found == UNCLEAR) else 0
-        note(p, lane, slips, found == CROSSES, phase, course)
+        note(p, lane, mine & sticks, found == CROSSES, side, held_fall)
+        note(p, lane, mine & (not sticks), found == CROSSES, phase, slid_fall)
     return seeks, lost
 
 
@@ -182,12 +228,16 @@ def aim(p):
     wide()
     for lane in range(WIDTH):
         h = at(p, LENGTH, lane)
-        share = guess(
-            at(p, BEGIN, lane), at(p, BEGIN_RISE, lane), at(p, FINISH, lane), at(p, FINISH_RISE, lane)
+        fall = Fall(
+            at(p, BEGIN, lane),
+            at(p, BEGIN_RISE, lane),
+            at(p, FINISH, lane),
+            at(p, FINISH_RISE, lane),
+            at(p, SHARE, lane),
         )
-        p[TRIAL * WIDTH + lane] = h * share
+        p[TRIAL * WIDTH + lane] = h * guess(fall)
         p[LOW * WIDTH + lane] = 0.0
-        p[HIGH * WIDTH + lane] = h
+        p[HIGH * WIDTH + lane] = h * fall.share
         p[SEEKS * WIDTH + lane] = at(p, CROSSING, lane) * at(p, ON_WAY, lane)
 
 
@@ -210,11 +260,15 @@ def approach(p, rate):
         pace = plan.stick.rate if sticks else max(plan.floor.rate, plan.brace.rate)
         r = rates_of(motion.u, motion.v, g, w2, fma(force.p1, t, force.p0), force.p1)
         q = rates_of(motion.d, motion.e, 0.0, plan.brace.w2, fma(force.b1, t, force.b0), force.b1)
-        gap, to_slip, last_to_slip = step_to_slip(plan, r, offset, side)
-        slide, to_stop, last_to_stop = step_to_stop(r, q, phase)
-        above = (gap if sticks else slide) > 0.0
-        later = to_slip if sticks else to_stop
-        last = last_to_slip if sticks else last_to_stop
+        gap = gap_rates(plan, r, offset, side)
+        slide = slide_rates(r, q, phase)
+        y = gap[0] if sticks else slide[0]
+        y1 = gap[1] if sticks else slide[1]
+        y2 = gap[2] if sticks else slide[2]
+        y3 = gap[3] if sticks else slide[3]
+        y4 = gap[4] if sticks else slide[4]
+        later, last = step_to_zero(y, y1, y2, y3, y4)
+        above = y > 0.0
         low = t if above else at(p, LOW, lane)
         high = at(p, HIGH, lane) if above else t
         inside = (low <= t + later) & (t + later <= high)

@@ -64,9 +64,9 @@ def at_once(plan, phase, whole, motion, force, offset, kick, h):
             swept = area(plan.stick_map, motion.u, motion.v, force.p0, force.p1)
         else:
             end, swept = stick_ahead(plan, motion, force, offset, h)
-        found, side, near = stick_verdict(plan, motion, end, force, offset, h)
+        found, side, near, until = stick_verdict(plan, motion, end, force, offset, h)
         if found == CROSSES:
-            h, end, swept = locate_slip(plan, motion, force, offset, side, near, h)
+            h, end, swept = locate_slip(plan, motion, force, offset, side, near, until)
         return found if h >= 0.0 else UNCLEAR, side, h, end, swept, swung
     swift = storey.brace_mass > 0.0 and plan.brace.w2 > 0.0 and plan.brace.g == 0.0
     if whole:
@@ -79,9 +79,9 @@ def at_once(plan, phase, whole, motion, force, offset, kick, h):
         end, swept, swung = slip_ahead(plan, motion, force, h)
     else:
         return UNCLEAR, phase, h, motion, 0.0, 0.0
-    found, near = slip_verdict(plan, motion, end, force, phase, kick, h)
+    found, near, until = slip_verdict(plan, motion, end, force, phase, kick, h)
     if found == CROSSES:
         if not swift:
             return UNCLEAR, phase, h, end, swept, swung
-        h, end, swept, swung = locate_stop(plan, motion, force, phase, near, h)
+        h, end, swept, swung = locate_stop(plan, motion, force, phase, near, until)
     return found if h >= 0.0 else UNCLEAR, phase, h, end, swept, swung

@@ -51,7 +51,7 @@ class Plan(NamedTuple):
     slip_order: float
     """Orders of the series on a piece, whole numbers."""
     floor_order: float
-    """Order of the floor's series on a step of slip."""
+    """Order of the floor's series on a piece of slip: the floor moves far less than the brace."""
     stick_map: StepMap
     floor_map: StepMap
     brace_map: StepMap
@@ -128,7 +128,7 @@ def plan(storey, step, radians):
         slip_step,
         float(series_order(stick.rate * step)),
         float(series_order(max(floor.rate, brace.rate) * slip_step)),
-        float(series_order(floor.rate * step)),
+        float(series_order(floor.rate * slip_step)),
         step_map(stick.g, stick.w2, step),
         step_map(floor.g, floor.w2, slip_step),
         step_map(brace.g, brace.w2, slip_step),

@@ -15,13 +15,13 @@ from fdspec.kernels.crossing import (
     SETTLED,
     UNCLEAR,
     Course,
-    guess_of,
+    guess,
     is_clear,
+    judged,
     leaves_zero,
     nearby,
     rates_of,
     step_to_zero,
-    verdict,
 )
 from fdspec.kernels.oscillator import ahead, dot4, undamped_ahead
 from fdspec.kernels.roots import first_root, largest_magnitude
@@ -79,17 +79,18 @@ def slip_course(plan, start, end, force, phase, kick, h):
 
 @inlined
 def slip_verdict(plan, start, end, force, phase, kick, h):
-    """Whether sliding goes on over the piece, comes to zero once, or neither is sure.
+    """Whether sliding goes on over the piece, comes to zero, or neither is sure.
 
-    Returned with the verdict: after how long it comes to zero, nearly (s).  ``kick`` as in `search_slip`.
+    Returned with the verdict: after how long it comes to zero, nearly (s), and until when it does so just
+    once.  ``kick`` as in `search_slip`.
     """
     course, leaves = slip_course(plan, start, end, force, phase, kick, h)
     if kick >= 0.0:
-        return CLEAR if leaves else UNCLEAR, 0.0
+        return CLEAR if leaves else UNCLEAR, 0.0, h
     if is_clear(course):
-        return CLEAR, 0.0
-    found = verdict(course)
-    return found, h * guess_of(course) if found == CROSSES else 0.0
+        return CLEAR, 0.0, h
+    found, fall = judged(course)
+    return found, h * guess(fall) if found == CROSSES else 0.0, h * fall.share
 
 
 @inlined
@@ -106,20 +107,22 @@ def slip_ahead(plan, start, force, t):
 
 
 @inlined
-def step_to_stop(r, q, phase):
-    """The sliding velocity at an instant, and what `step_to_zero` makes of it."""
-    slide = phase * (r.v - q.v)
-    later, last = step_to_zero(
-        slide, phase * (r.a - q.a), phase * (r.j - q.j), phase * (r.s - q.s), phase * (r.c - q.c)
+def slide_rates(r, q, phase):
+    """The sliding velocity at an instant, and its derivatives, from those of floor and brace."""
+    return (
+        phase * (r.v - q.v),
+        phase * (r.a - q.a),
+        phase * (r.j - q.j),
+        phase * (r.s - q.s),
+        phase * (r.c - q.c),
     )
-    return slide, later, last
 
 
 @inner
 def locate_stop(plan, start, force, phase, t, h):
     """Time at which sliding comes to zero, with what `slip_ahead` gives there.
 
-    It does so once on the piece, near t.  A negative time says that it was not found.
+    It does so once until h, near t.  A negative time says that it was not found.
     """
     f = plan.floor
     b = plan.brace
@@ -130,7 +133,8 @@ def locate_stop(plan, start, force, phase, t, h):
         motion, swept, swung = slip_ahead(plan, start, force, t)
         r = rates_of(motion.u, motion.v, f.g, f.w2, fma(force.p1, t, force.p0), force.p1)
         q = rates_of(motion.d, motion.e, 0.0, b.w2, fma(force.b1, t, force.b0), force.b1)
-        slide, later, last = step_to_stop(r, q, phase)
+        slide, y1, y2, y3, y4 = slide_rates(r, q, phase)
+        later, last = step_to_zero(slide, y1, y2, y3, y4)
         if slide > 0.0:
             low = t
         else:

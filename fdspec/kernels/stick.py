@@ -15,12 +15,12 @@ from fdspec.kernels.crossing import (
     SETTLED,
     UNCLEAR,
     Course,
-    guess_of,
+    guess,
     is_clear,
+    judged,
     nearby,
     rates_of,
     step_to_zero,
-    verdict,
 )
 from fdspec.kernels.oscillator import ahead
 from fdspec.kernels.roots import NO_ROOT, clears, first_root
@@ -67,17 +67,18 @@ def stick_course(plan, start, end, force, offset, h):
 
 @inlined
 def stick_verdict(plan, start, end, force, offset, h):
-    """Whether the reaction stays within the slip force on the piece, reaches it once, or neither is sure.
+    """Whether the reaction stays within the slip force on the piece, reaches it, or neither is sure.
 
-    Returned with the verdict: the side on which it is reached, and after how long, nearly (s).
+    Returned with the verdict: the side on which it is reached, after how long, nearly (s), and until when
+    it is reached just once.
     """
     course, side, one_sided = stick_course(plan, start, end, force, offset, h)
     if not one_sided:
-        return UNCLEAR, int(side), 0.0
+        return UNCLEAR, int(side), 0.0, h
     if is_clear(course):
-        return CLEAR, int(side), 0.0
-    found = verdict(course)
-    return found, int(side), h * guess_of(course) if found == CROSSES else 0.0
+        return CLEAR, int(side), 0.0, h
+    found, fall = judged(course)
+    return found, int(side), h * guess(fall) if found == CROSSES else 0.0, h * fall.share
 
 
 @inlined
@@ -89,24 +90,22 @@ def stick_ahead(plan, start, force, offset, t):
 
 
 @inlined
-def step_to_slip(plan, r, offset, side):
-    """What the reaction lacks to the slip force at an instant, and what `step_to_zero` makes of it."""
-    gap = plan.storey.slip_force - side * held_force(plan, r.x, r.v, offset)
-    later, last = step_to_zero(
-        gap,
+def gap_rates(plan, r, offset, side):
+    """What the reaction lacks to the slip force at an instant, and its derivatives, from the floor's."""
+    return (
+        plan.storey.slip_force - side * held_force(plan, r.x, r.v, offset),
         -side * fma(plan.hold_u, r.v, plan.hold_v * r.a),
         -side * fma(plan.hold_u, r.a, plan.hold_v * r.j),
         -side * fma(plan.hold_u, r.j, plan.hold_v * r.s),
         -side * fma(plan.hold_u, r.s, plan.hold_v * r.c),
     )
-    return gap, later, last
 
 
 @inner
 def locate_slip(plan, start, force, offset, side, t, h):
     """Time at which the reaction reaches the slip force on this side, with what `stick_ahead` gives there.
 
-    It does so once on the piece, near t.  A negative time says that it was not found.
+    It does so once until h, near t.  A negative time says that it was not found.
     """
     b = plan.stick
     low = 0.0
@@ -114,7 +113,8 @@ def locate_slip(plan, start, force, offset, side, t, h):
     for _ in range(ATTEMPTS):
         motion, swept = stick_ahead(plan, start, force, offset, t)
         r = rates_of(motion.u, motion.v, b.g, b.w2, fma(force.p1, t, force.p0), force.p1)
-        gap, later, last = step_to_slip(plan, r, offset, side)
+        gap, y1, y2, y3, y4 = gap_rates(plan, r, offset, side)
+        later, last = step_to_zero(gap, y1, y2, y3, y4)
         if gap > 0.0:
             low = t
         else:

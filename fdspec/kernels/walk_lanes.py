@@ -31,7 +31,15 @@ from fdspec.kernels.packed import (
     WIDTH,
     at,
 )
-from fdspec.kernels.piece_lanes import aim, approach, judge_slip, judge_stick, take_parts, take_whole
+from fdspec.kernels.piece_lanes import (
+    aim,
+    approach,
+    judge_slip,
+    judge_stick,
+    look_closer,
+    take_parts,
+    take_whole,
+)
 from fdspec.kernels.shelf import take_plan
 from fdspec.kernels.slip import shear_bounds, slip_peaks
 from fdspec.kernels.stick import stick_peaks
@@ -232,19 +240,27 @@ def walk_lanes(p, a0, rate, to_walk, shelf, floor, brace, search):
     a0, rate: as for the walk; no viscous work is kept.  shelf: the lanes' plans; floor, brace, search: room
     for series, (TERMS,).
     """
-    lost = set_out(p, to_walk)
+    lost, eager = set_out(p, to_walk)
     on_way = to_walk
     for _ in range(ROUNDS):
         parts, holding = take_whole(p, a0, rate)
         if parts != 0:
             take_parts(p, rate)
+        sliding = on_way & ~holding
         seeks = 0
+        doubts = 0
         if holding != 0:
-            seeks, lost = judge_stick(p, rate, lost)
-        if on_way & ~holding != 0:
-            more, lost = judge_slip(p, rate, lost)
+            seeks, doubts = judge_stick(p, rate)
+        if sliding != 0:
+            more, others = judge_slip(p, rate)
             seeks |= more
+            doubts |= others
+        if doubts != 0:
+            more, doubts = look_closer(p, rate, doubts)
+            seeks |= more
+            lost |= doubts
         crosses = seeks != 0
+        eager |= seeks
         if crosses:
             aim(p)
             for _ in range(ATTEMPTS):
@@ -252,14 +268,14 @@ def walk_lanes(p, a0, rate, to_walk, shelf, floor, brace, search):
                     break
                 seeks = approach(p, rate)
             lost |= seeks
-        doubts = 0
-        if holding != 0:
-            doubts |= raise_stick(p, rate)
-        if on_way & ~holding != 0:
-            doubts |= raise_slip(p, rate)
-        doubts &= ~lost
+        sees = 0
+        if holding & eager != 0:
+            sees |= raise_stick(p, rate)
+        if sliding & eager != 0:
+            sees |= raise_slip(p, rate)
+        sees &= ~lost
         for lane in range(WIDTH):
-            if doubts >> lane & 1:
+            if sees >> lane & 1:
                 search_peaks(p, lane, take_plan(shelf, lane), rate, floor, brace, search)
         further, fallen = arrive(p, rate)
         lost |= fallen

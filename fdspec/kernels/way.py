@@ -180,8 +180,9 @@ def keep_on(p, on_way):
 
 @inner
 def set_out(p, to_walk):
-    """Put the lanes of this set on their way; return those of them that cannot go."""
+    """Put lanes of this set on their way; return those that cannot go, and those whose peaks may grow."""
     lost = 0
+    eager = 0
     for row in range(N_STATE):
         for lane in range(WIDTH):
             p[(WAY + row) * WIDTH + lane] = at(p, row, lane)
@@ -193,9 +194,10 @@ def set_out(p, to_walk):
             & (at(p, CREST_S, lane) <= at(p, PEAK_SHEAR, lane))
         )
         lost |= (1 << lane) if at(p, TOUCHING, lane) != 0.0 else 0
+        eager |= 0 if calm else 1 << lane
         p[CALM * WIDTH + lane] = 1.0 if calm else 0.0
         p[TAU * WIDTH + lane] = 0.0
         p[PART * WIDTH + lane] = 0.0
         p[WHOLE * WIDTH + lane] = 1.0
     keep_on(p, to_walk & ~lost)
-    return to_walk & lost
+    return to_walk & lost, to_walk & eager
