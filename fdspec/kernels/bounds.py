@@ -5,6 +5,7 @@ from __future__ import annotations
 from fdspec.jit import fma, inlined, inner
 from fdspec.kernels.oscillator import acceleration, expand
 from fdspec.kernels.roots import TAIL, THIRD, largest_magnitude
+from fdspec.kernels.turns import floor_weights, top_inside
 from fdspec.kernels.types import STICK, Force, Peaks
 
 
@@ -133,6 +134,24 @@ def floor_peaks(b, base, mass, floor, search, n, share, start, end, force, h, pe
     """
     ends, least, see_u, see_v, see_q = floor_bounds(b, base, mass, start, end, force, h, peaks)
     acceleration, displacement, velocity, shear = ends
+    if share == 0.0 and (see_u or see_v or see_q):
+        a0 = relative_acceleration(b, start.u, start.v, force.p0)
+        fourth_u, fourth_v = floor_fourths(b, start.v, a0, force.p1, h)
+        if see_u:
+            w = floor_weights(1.0, 0.0, 0.0)
+            displacement, sure = top_inside(b, b, n, False, w, start, end, force, h, fourth_u, displacement)
+            see_u = not sure
+        if see_v:
+            w = floor_weights(0.0, 1.0, 0.0)
+            velocity, sure = top_inside(b, b, n, False, w, start, end, force, h, fourth_v, velocity)
+            see_v = not sure
+        if see_q:
+            w = floor_weights(-b.w2, -b.g, base)
+            fourth = fma(b.g, fourth_v, b.w2 * fourth_u)
+            top, sure = top_inside(b, b, n, False, w, start, end, force, h, fourth, least)
+            acceleration = max(acceleration, top)
+            shear = max(shear, mass * top)
+            see_q = not sure
     if see_u or see_v or see_q:
         ready(floor, n, share, start.u, start.v, b.g, b.w2, force.p0, force.p1, h)
         if see_u:

@@ -87,6 +87,15 @@ def cubic(start, start_rise, end, end_rise):
 
 
 @inlined
+def lowest(start, start_rise, end, end_rise):
+    """Fraction of a piece at which a cubic that falls at the start and rises at the end is lowest."""
+    square, cube = cubic(start, start_rise, end, end_rise)
+    spread = fma(square, square, -3.0 * cube * start_rise)
+    x = -start_rise / (square + math.sqrt(max(spread, 0.0)))
+    return min(max(x, 0.0), 1.0)
+
+
+@inlined
 def verdict(course):
     """Whether the quantity stays positive on the piece, crosses zero once, or neither is sure."""
     margin = BEND_OFF * course.fourth
@@ -115,9 +124,7 @@ def dip_verdict(course):
     any place where it is below.
     """
     square, cube = cubic(course.start, course.start_rise, course.end, course.end_rise)
-    spread = fma(square, square, -3.0 * cube * course.start_rise)
-    x = -course.start_rise / (square + math.sqrt(max(spread, 0.0)))
-    x = min(max(x, 0.0), 1.0)
+    x = lowest(course.start, course.start_rise, course.end, course.end_rise)
     height = fma(x, fma(x, fma(x, cube, square), course.start_rise), course.start)
     slope = fma(x, fma(3.0 * x, cube, 2.0 * square), course.start_rise)
     # With at least this bend, nowhere is it further below than slope^2 / (2 bend).

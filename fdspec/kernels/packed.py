@@ -13,6 +13,7 @@ import math
 from fdspec.jit import inlined, inner
 from fdspec.kernels.energy import STICK_FORM, STRIDE_FORM
 from fdspec.kernels.oscillator import MOST
+from fdspec.kernels.plan import is_swift
 from fdspec.kernels.roots import TAIL
 from fdspec.kernels.shelf import N_SHELF, STICK_MAP
 from fdspec.kernels.types import (
@@ -137,8 +138,7 @@ def put_lane(p, lane, plan, shelf, forms, stride, certify):
         p[(S_MAP + k) * WIDTH + lane] = shelf[STICK_MAP + k]
         p[(F_MAP + k) * WIDTH + lane] = stride[k]
         p[(B_MAP + k) * WIDTH + lane] = stride[12 + k]
-    in_lanes = massive and plan.brace.w2 > 0.0 and plan.brace.g == 0.0 and storey.slip_force > 0.0
-    in_lanes = in_lanes and max(plan.stick_order, plan.floor_order) <= MOST
+    in_lanes = is_swift(plan) and storey.slip_force > 0.0 and max(plan.stick_order, plan.floor_order) <= MOST
     p[SWIFT * WIDTH + lane] = 1.0 if in_lanes else 0.0
     for k in range(N_SHELF):
         p[(PLAN + k) * WIDTH + lane] = shelf[k]

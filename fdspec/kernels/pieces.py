@@ -6,6 +6,7 @@ from fdspec.jit import inlined, inner
 from fdspec.kernels.crossing import CROSSES, UNCLEAR
 from fdspec.kernels.energy import BRACE_FORM, FLOOR_FORM, STICK_FORM, loss_at
 from fdspec.kernels.oscillator import advance, area, expand, square_integral
+from fdspec.kernels.plan import is_swift
 from fdspec.kernels.quadrature import SHORT, series_square, short_square
 from fdspec.kernels.slip import locate_stop, slip_ahead, slip_verdict
 from fdspec.kernels.stick import locate_slip, stick_ahead, stick_verdict
@@ -55,7 +56,6 @@ def at_once(plan, phase, whole, motion, force, offset, kick, h):
     Returns the verdict (see `fdspec.kernels.crossing`); the phase that follows where it crosses; how
     far the piece then reaches, s; the motion there; the integrals of both displacements until there.
     """
-    storey = plan.storey
     swung = 0.0
     if phase == STICK:
         if whole:
@@ -68,7 +68,7 @@ def at_once(plan, phase, whole, motion, force, offset, kick, h):
         if found == CROSSES:
             h, end, swept = locate_slip(plan, motion, force, offset, side, near, until)
         return found if h >= 0.0 else UNCLEAR, side, h, end, swept, swung
-    swift = storey.brace_mass > 0.0 and plan.brace.w2 > 0.0 and plan.brace.g == 0.0
+    swift = is_swift(plan)
     if whole:
         u, v = advance(plan.floor_map, motion.u, motion.v, force.p0, force.p1)
         d, e = advance(plan.brace_map, motion.d, motion.e, force.b0, force.b1)

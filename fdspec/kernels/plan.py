@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from fdspec.jit import inner
+from fdspec.jit import inlined, inner
 from fdspec.kernels.oscillator import StepMap, rate_bound, series_order, step_map
 from fdspec.kernels.types import Storey
 
@@ -100,6 +100,12 @@ def steps_per_sample(storey, dt, radians):
     )
     floor = branch(storey.floor_mass, storey.floor_damping, storey.floor_stiffness)
     return parts_of(max(stick.rate, floor.rate), dt, radians)
+
+
+@inlined
+def is_swift(plan):
+    """Whether the brace's motion is known in closed form: it has mass and no damping."""
+    return plan.storey.brace_mass > 0.0 and plan.brace.w2 > 0.0 and plan.brace.g == 0.0
 
 
 @inner

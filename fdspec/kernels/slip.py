@@ -24,7 +24,9 @@ from fdspec.kernels.crossing import (
     step_to_zero,
 )
 from fdspec.kernels.oscillator import ahead, dot4, undamped_ahead
+from fdspec.kernels.plan import is_swift
 from fdspec.kernels.roots import first_root, largest_magnitude
+from fdspec.kernels.turns import Weights, top_inside
 from fdspec.kernels.types import Motion, Peaks
 
 NOISE = 1e-9
@@ -184,7 +186,10 @@ def base_shear(storey, motion):
 
 @inlined
 def shear_bounds(plan, start, end, force, h, peak):
-    """Largest base shear at the end of a slip piece, and whether it may be passed inside."""
+    """Largest base shear at the end of a slip piece, whether it may be passed inside, and what bounds it.
+
+    The last is a bound on h^4 times its fourth derivative.
+    """
     storey = plan.storey
     f = plan.floor
     b = plan.brace
@@ -195,6 +200,7 @@ def shear_bounds(plan, start, end, force, h, peak):
     b1 = relative_acceleration(b, end.d, end.e, fma(force.b1, h, force.b0))
     fourth_u, fourth_v = floor_fourths(f, start.v, a0, force.p1, h)
     fourth_d, fourth_e = brace_fourths(plan, start, b0, force, h)
+    fourth = dot4(k, fourth_u, c, fourth_v, kd, fourth_d, cd, fourth_e)
     s0 = base_shear(storey, start)
     s1 = base_shear(storey, end)
     inside = crest(
@@ -202,10 +208,10 @@ def shear_bounds(plan, start, end, force, h, peak):
         h * dot4(k, start.v, c, a0, kd, start.e, cd, b0),
         s1,
         h * dot4(k, end.v, c, a1, kd, end.e, cd, b1),
-        dot4(k, fourth_u, c, fourth_v, kd, fourth_d, cd, fourth_e),
+        fourth,
     )
     shear = max(peak, abs(s1))
-    return shear, inside > shear
+    return shear, inside > shear, fourth
 
 
 @inlined
@@ -215,7 +221,12 @@ def slip_peaks(plan, floor, brace, search, n, share, start, end, force, phase, h
     f = plan.floor
     b = plan.brace
     k, c, kd, cd = storey.floor_stiffness, storey.floor_damping, storey.brace_stiffness, storey.brace_damping
-    shear, see_s = shear_bounds(plan, start, end, force, h, peaks.shear)
+    shear, see_s, fourth = shear_bounds(plan, start, end, force, h, peaks.shear)
+    if see_s and share == 0.0 and is_swift(plan):
+        order = int(plan.floor_order)
+        w = Weights(k, c, kd, cd, 0.0)
+        shear, sure = top_inside(f, b, order, True, w, start, end, force, h, fourth, shear)
+        see_s = not sure
     if see_s:
         ready(floor, n, share, start.u, start.v, f.g, f.w2, force.p0, force.p1, h)
         ready(brace, n, share, start.d, start.e, b.g, b.w2, force.b0, force.b1, h)

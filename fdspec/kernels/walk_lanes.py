@@ -122,7 +122,7 @@ def raise_slip(p, rate):
         force, h = force_in(p, rate, lane), at(p, LENGTH, lane)
         peaks = peaks_in(p, lane)
         top, _, see_u, see_v, see_q = floor_bounds(plan.floor, base, 0.0, start, end, force, h, peaks)
-        shear, see_s = shear_bounds(plan, start, end, force, h, peaks.shear)
+        shear, see_s, _ = shear_bounds(plan, start, end, force, h, peaks.shear)
         mine = looks(p, lane) & (phase != 0.0)
         sees = see_u | see_v | see_q | see_s
         doubts |= (1 << lane) if mine & sees else 0
