@@ -6,6 +6,8 @@ steps a sample, through the motion side by side.  Whose neighbours they are touc
 
 from __future__ import annotations
 
+from typing import Final
+
 import numpy as np
 from numba import types
 
@@ -33,6 +35,9 @@ from fdspec.kernels.shelf import put_numbers, put_plan, take_plan
 from fdspec.kernels.types import N_STATE, OK, PHASE, STATUS, STICK, Storey
 from fdspec.kernels.walk import walk
 from fdspec.kernels.walk_lanes import walk_lanes
+
+LINE: Final = 8
+"""Numbers in a line of the cache: a vector of 512 bits that begins elsewhere lies across two of them."""
 
 
 @entry(types.void(float2d, types.float64, types.float64, types.boolean, int1d, float2d, float2d, float2d))
@@ -89,7 +94,9 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, crowd, results, 
     leave room while the storey never slips.
     """
     count = shelf.shape[0]
-    p = np.zeros(N_ROWS * WIDTH)
+    room = np.zeros(N_ROWS * WIDTH + LINE)
+    first = -(room.ctypes.data // room.itemsize) % LINE
+    p = room[first : first + N_ROWS * WIDTH]
     # One state and one row of losses for all lanes: a view of an array for each walk would count references.
     s, losses = np.zeros(N_STATE), np.zeros(N_FORMS)
     given_up = np.zeros((WIDTH, N_STATE))

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 
-from fdspec.jit import inlined, inner
+from fdspec.jit import inlined, inner, wide
 from fdspec.kernels.energy import STICK_FORM, STRIDE_FORM
 from fdspec.kernels.oscillator import MOST
 from fdspec.kernels.plan import is_swift
@@ -186,6 +186,7 @@ def take_state(p, lane, s):
 @inner
 def slipping_lanes(p):
     """The set of lanes that slip, a bit for each."""
+    wide()
     lanes = 0
     for lane in range(WIDTH):
         lanes |= (1 << lane) if at(p, PHASE, lane) != 0.0 else 0

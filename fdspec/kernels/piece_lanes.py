@@ -15,6 +15,7 @@ from fdspec.kernels.crossing import (
     NEAR,
     SETTLED,
     UNCLEAR,
+    Course,
     Fall,
     dip_verdict,
     fall_of,
@@ -194,6 +195,21 @@ def judge_slip(p, rate):
     return seeks, doubts
 
 
+@inlined
+def either(first, one, other):
+    """One course or the other, number by number, which lanes can do."""
+    return Course(
+        one.start if first else other.start,
+        one.start_rise if first else other.start_rise,
+        one.start_bend if first else other.start_bend,
+        one.end if first else other.end,
+        one.end_rise if first else other.end_rise,
+        one.end_bend if first else other.end_bend,
+        one.fourth if first else other.fourth,
+        one.fifth if first else other.fifth,
+    )
+
+
 @inner
 def look_closer(p, rate, doubts):
     """Judge lanes in doubt by the bottoms of their dips; return those that cross, and which still doubt."""
@@ -206,19 +222,15 @@ def look_closer(p, rate, doubts):
         start, end = motion_in(p, lane), end_in(p, lane)
         force, h = force_in(p, rate, lane), at(p, LENGTH, lane)
         kick = way(p, KICK, lane)
+        sticks = phase == 0.0
         gap, side, one_sided = stick_course(plan, start, end, force, way(p, OFFSET, lane), h)
         slide, _ = slip_course(plan, start, end, force, phase, kick, h)
-        held, held_fall = dip_verdict(gap)
-        slid, slid_fall = dip_verdict(slide)
-        sticks = phase == 0.0
-        held = held if one_sided else UNCLEAR
-        slid = UNCLEAR if kick >= 0.0 else slid
-        found = held if sticks else slid
+        found, fall = dip_verdict(either(sticks, gap, slide))
+        found = found if (one_sided if sticks else kick < 0.0) else UNCLEAR
         mine = (doubts >> lane & 1) != 0
         seeks |= (1 << lane) if mine & (found == CROSSES) else 0
         lost |= (1 << lane) if mine & (found == UNCLEAR) else 0
-        note(p, lane, mine & sticks, found == CROSSES, side, held_fall)
-        note(p, lane, mine & (not sticks), found == CROSSES, phase, slid_fall)
+        note(p, lane, mine, found == CROSSES, side if sticks else phase, fall)
     return seeks, lost
 
 

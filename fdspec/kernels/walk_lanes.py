@@ -48,7 +48,6 @@ from fdspec.kernels.types import (
     EVENTS,
     INPUT,
     KICK,
-    N_STATE,
     NO_KICK,
     OFFSET,
     PHASE,
@@ -65,6 +64,7 @@ from fdspec.kernels.types import (
 )
 from fdspec.kernels.walk import with_instant
 from fdspec.kernels.way import (
+    bring_back,
     end_in,
     force_in,
     keep_on,
@@ -286,8 +286,5 @@ def walk_lanes(p, a0, rate, to_walk, shelf, floor, brace, search):
         if on_way == 0:
             break
     lost |= on_way
-    taken = to_walk & ~lost
-    for row in range(N_STATE):
-        for lane in range(WIDTH):
-            p[row * WIDTH + lane] = way(p, row, lane) if taken >> lane & 1 else at(p, row, lane)
+    bring_back(p, to_walk & ~lost)
     return lost

@@ -6,7 +6,7 @@ every loop over the lanes takes what it needs.
 
 from __future__ import annotations
 
-from fdspec.jit import inlined, inner
+from fdspec.jit import inlined, inner, wide
 from fdspec.kernels.oscillator import StepMap
 from fdspec.kernels.packed import (
     CALM,
@@ -174,6 +174,7 @@ def put_peaks(p, lane, mine, peaks):
 @inner
 def keep_on(p, on_way):
     """Mark the lanes of this set, and no other, as on their way."""
+    wide()
     for lane in range(WIDTH):
         p[ON_WAY * WIDTH + lane] = 1.0 if on_way >> lane & 1 else 0.0
 
@@ -181,6 +182,7 @@ def keep_on(p, on_way):
 @inner
 def set_out(p, to_walk):
     """Put lanes of this set on their way; return those that cannot go, and those whose peaks may grow."""
+    wide()
     lost = 0
     eager = 0
     for row in range(N_STATE):
@@ -201,3 +203,13 @@ def set_out(p, to_walk):
         p[WHOLE * WIDTH + lane] = 1.0
     keep_on(p, to_walk & ~lost)
     return to_walk & lost, to_walk & eager
+
+
+@inner
+def bring_back(p, lanes):
+    """Make the states at the end of their way those of the lanes of this set."""
+    wide()
+    for row in range(N_STATE):
+        for lane in range(WIDTH):
+            there = way(p, row, lane)
+            p[row * WIDTH + lane] = there if lanes >> lane & 1 else at(p, row, lane)
