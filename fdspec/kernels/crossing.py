@@ -164,7 +164,7 @@ def guess(fall):
     square, cube = cubic(fall.start, fall.start_rise, fall.end, fall.end_rise)
     # From the chord, or in a dip from the parabola, which is level at its end.
     x = fall.start / (fall.start - fall.end)
-    x = x if fall.share == 1.0 else 1.0 - math.sqrt(1.0 - x)
+    x = x if fall.share == 1.0 else 1.0 - math.sqrt(max(1.0 - x, 0.0))
     inside = True
     for _ in range(2):
         height = fma(x, fma(x, fma(x, cube, square), fall.start_rise), fall.start)
