@@ -12,6 +12,8 @@ signatures     entries are compiled for one explicit signature: nothing compiles
                another type.
 wide vectors   on most processors that have vectors of 512 bits LLVM uses 256, since the wide ones may
                slow down what runs beside them; loops over lanes are little else, and ask for them.
+seldom         a search that one step in a hundred needs is called, not copied to each of its ten places: half
+               the time to compile.
 fused          a product and a sum in one instruction, where a formula says so by ``fma``: half the time,
                and rounded once on every processor, so that the same bits come of it everywhere.  The
                compiler's own leave to fuse would give a lane other bits than the same history alone.
@@ -73,7 +75,8 @@ def inner(function: Function) -> Function:
     It makes no arrays, and so counts no references to those it is handed: counting is atomic, and in
     a step of a microsecond it cost as much as the arithmetic.
     """
-    compiled: Function = numba.njit(_nrt=False, no_cfunc_wrapper=True, **OPTIONS)(function)
+    # Unless told, numba forces a kernel into all its callers if the first of those is forced into its own.
+    compiled: Function = numba.njit(_nrt=False, forceinline=False, no_cfunc_wrapper=True, **OPTIONS)(function)
     return compiled
 
 
@@ -88,23 +91,36 @@ if config.DISABLE_JIT:
     def wide() -> None:
         """Do nothing: without the JIT there are no vectors."""
 
+    def seldom() -> None:
+        """Do nothing: without the JIT nothing is inlined."""
+
     def fma(a: float, b: float, c: float) -> float:
         """Give a b + c, here rounded twice: Python has had an fma only since 3.13."""
         return a * b + c
 
 else:
 
+    def _marking(*attributes: str) -> Callable[[Any, Any, Any, Any], Any]:
+        """Give the code of an intrinsic that marks the function in which it stands."""
+
+        def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:  # noqa: ARG001
+            # llvmlite's own method knows few attributes; it keeps them in a set.
+            if isinstance(builder.function.attributes, set):
+                for attribute in attributes:
+                    set.add(builder.function.attributes, attribute)
+            return context.get_dummy_value()
+
+        return code
+
     @intrinsic  # type: ignore[untyped-decorator]
     def wide(typing_context: Any) -> Any:  # noqa: ARG001
         """Let the compiler use its widest vectors in the kernel that calls this."""
+        return types.void(), _marking('"prefer-vector-width"="512"')
 
-        def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:  # noqa: ARG001
-            # llvmlite's own method takes attributes of one word alone; it keeps them in a set.
-            if isinstance(builder.function.attributes, set):
-                set.add(builder.function.attributes, '"prefer-vector-width"="512"')
-            return context.get_dummy_value()
-
-        return types.void(), code
+    @intrinsic  # type: ignore[untyped-decorator]
+    def seldom(typing_context: Any) -> Any:  # noqa: ARG001
+        """Keep the kernel that calls this out of those that call it: it is long, and few steps need it."""
+        return types.void(), _marking("noinline")
 
     @intrinsic  # type: ignore[untyped-decorator]
     def fma(typing_context: Any, a: Any, b: Any, c: Any) -> Any:  # noqa: ARG001

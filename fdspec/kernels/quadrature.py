@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fdspec.jit import fma, inner
+from fdspec.jit import fma, inner, seldom
 from fdspec.kernels.oscillator import INVERSE, SquareForm, step_map
 from fdspec.kernels.roots import value_slope
 
@@ -55,6 +55,7 @@ def series_area(c, n, h, x):
 @inner
 def series_square(c, n, h, x):
     """Integral of velocity squared over the first part x of a step of length h; c as above."""
+    seldom()
     total = 0.0
     for j in range(len(NODES)):
         rise = value_slope(c, 0, n, x * NODES[j])[1]

@@ -18,7 +18,7 @@ sliding velocity): p(x) = x^lo q(x), and q is searched instead.
 
 from __future__ import annotations
 
-from fdspec.jit import fma, inlined, inner
+from fdspec.jit import fma, inlined, inner, seldom
 
 NO_ROOT = 2.0
 """Returned where there is no root in [0, 1]."""
@@ -161,6 +161,7 @@ def first_root(c, lo, n, sign):
     Zero leading coefficients are stripped: the polynomial that begins at zero is judged by where
     it goes.  A polynomial that begins below zero has its root at 0.
     """
+    seldom()
     while lo < n and c[lo] == 0.0:
         lo += 1
     if lo == n and c[n] == 0.0:
@@ -258,6 +259,7 @@ def largest(c, n, sign, end, end_slope, fourth, rounding, best):
 @inner
 def largest_magnitude(c, n, best):
     """The greater of ``best`` and the maximum of |p(x)| over [0, 1]."""
+    seldom()
     fourth = fourth_bound(c, 0, n)
     end, end_slope = value_slope(c, 0, n, 1.0)
     rounding = 0.0

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from fdspec.jit import fma, inlined, inner
+from fdspec.jit import fma, inlined, inner, seldom
 from fdspec.kernels.crossing import (
     BEND_OFF,
     HALF,
@@ -69,6 +69,7 @@ def top_inside(floor, brace, n, rings, w, start, end, force, h, fourth, best):
     in the quantity: it then has mass and no damping.  fourth: a bound on h^4 times the quantity's fourth
     derivative.
     """
+    seldom()
     stop = fma(force.p1, h, force.p0)
     r0 = rates_of(start.u, start.v, floor.g, floor.w2, force.p0, force.p1)
     r1 = rates_of(end.u, end.v, floor.g, floor.w2, stop, force.p1)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import re
+
 import numba
 import numpy as np
 import pytest
 from llvmlite.binding import get_host_cpu_features
 from numba import config
 
-from fdspec.jit import fma, wide
+from fdspec.jit import fma, inlined, inner, seldom, wide
 
 needs_wide_vectors = pytest.mark.skipif(
     bool(config.DISABLE_JIT) or not get_host_cpu_features().get("avx512f"),
@@ -58,3 +60,27 @@ def test_a_fused_sum_is_rounded_once() -> None:
 
 def test_a_fused_sum_without_rounding_is_the_sum() -> None:
     assert numba.njit(fused)(3.0, -0.5, 4.0) == 2.5
+
+
+@inner
+def seldom_called(x: float) -> float:
+    seldom()
+    return x + 1.0
+
+
+@inlined
+def always_copied(x: float) -> float:
+    return seldom_called(x) + 1.0
+
+
+def calling(x: float) -> float:
+    return always_copied(x)
+
+
+@pytest.mark.skipif(bool(config.DISABLE_JIT), reason="nothing is compiled")
+def test_what_is_seldom_needed_is_called_and_not_copied() -> None:
+    compiled = numba.njit(calling)
+    assert compiled(1.0) == 3.0
+    (code,) = compiled.inspect_llvm().values()
+    assert re.search(r"call .*seldom_called", code)
+    assert not re.search(r"call .*always_copied", code)
