@@ -12,11 +12,11 @@ signatures     entries are compiled for one explicit signature: nothing compiles
                another type.
 wide vectors   on most processors that have vectors of 512 bits LLVM uses 256, since the wide ones may
                slow down what runs beside them; loops over lanes are little else, and ask for them.
-seldom         a search that one step in a hundred needs is called, not copied to each of its ten places: half
+seldom         long searches that few steps need are called, not copied to all their places: a quarter of
                the time to compile.
-fused          a product and a sum in one instruction, where a formula says so by ``fma``: half the time,
-               and rounded once on every processor, so that the same bits come of it everywhere.  The
-               compiler's own leave to fuse would give a lane other bits than the same history alone.
+fused          a product and a sum in one instruction, where a formula says so by ``fma``: rounded once on
+               every processor, so that the same bits come of it everywhere.  The compiler's own leave to
+               fuse would give a history other bits beside neighbours than alone.
 cache          entries only: what they call is compiled into them.  numba knows an entry to be stale
                when its own file has changed, not when a callee's has, so the cache folder is named
                after the source of all kernels.  One process compiles, others wait (kernel_cache.py).
@@ -100,14 +100,13 @@ if config.DISABLE_JIT:
 
 else:
 
-    def _marking(*attributes: str) -> Callable[[Any, Any, Any, Any], Any]:
+    def _marking(attribute: str) -> Callable[[Any, Any, Any, Any], Any]:
         """Give the code of an intrinsic that marks the function in which it stands."""
 
         def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:  # noqa: ARG001
             # llvmlite's own method knows few attributes; it keeps them in a set.
             if isinstance(builder.function.attributes, set):
-                for attribute in attributes:
-                    set.add(builder.function.attributes, attribute)
+                set.add(builder.function.attributes, attribute)
             return context.get_dummy_value()
 
         return code

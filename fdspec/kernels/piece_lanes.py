@@ -212,7 +212,7 @@ def either(first, one, other):
 
 @inner
 def look_closer(p, rate, doubts):
-    """Judge lanes in doubt by the bottoms of their dips; return those that cross, and which still doubt."""
+    """Judge lanes in doubt by the bottoms of their dips; return those that cross, and those left in doubt."""
     wide()
     seeks = 0
     lost = 0
