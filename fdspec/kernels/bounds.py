@@ -10,6 +10,12 @@ from fdspec.kernels.types import STICK, Force, Peaks
 
 
 @inlined
+def ground_at(start, rate, t):
+    """Ground acceleration a time t after it was ``start``."""
+    return fma(rate, t, start)
+
+
+@inlined
 def forcing(plan, phase, offset, acceleration, rate):
     """Force over mass on a piece that begins at this ground acceleration (m/s2) and rate (m/s3)."""
     if phase == STICK:

@@ -8,7 +8,7 @@ one, and lead those whose phase changes to the instant.
 from __future__ import annotations
 
 from fdspec.jit import fma, inlined, inner, wide
-from fdspec.kernels.bounds import forcing
+from fdspec.kernels.bounds import forcing, ground_at
 from fdspec.kernels.crossing import (
     CLEAR,
     CROSSES,
@@ -78,7 +78,7 @@ def take_whole(p, a0, rate):
         tau = at(p, TAU, lane)
         last = sticks | (part + 1.0 == plan.slip_steps)
         h = (plan.step if last else (part + 1.0) * plan.slip_step) - tau
-        ground = fma(rate, tau, a0)
+        ground = ground_at(a0, rate, tau)
         offset = way(p, OFFSET, lane)
         force = forcing(plan, phase, offset, ground, rate)
         motion = motion_in(p, lane)

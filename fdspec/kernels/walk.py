@@ -11,8 +11,8 @@ from __future__ import annotations
 
 import math
 
-from fdspec.jit import fma, inlined, inner
-from fdspec.kernels.bounds import forcing
+from fdspec.jit import inlined, inner
+from fdspec.kernels.bounds import forcing, ground_at
 from fdspec.kernels.crossing import CROSSES, UNCLEAR
 from fdspec.kernels.energy import (
     input_work,
@@ -192,7 +192,7 @@ def walk(
         order = int(plan.stick_order) if phase == STICK else int(plan.slip_order)
         target = plan.step if part + 1 == pieces else (part + 1) * plan.slip_step
         h = target - tau
-        acceleration = fma(rate, tau, a0)
+        acceleration = ground_at(a0, rate, tau)
         force = forcing(plan, phase, offset, acceleration, rate)
 
         found = UNCLEAR
