@@ -224,7 +224,7 @@ def slip_peaks(plan, floor, brace, search, n, share, start, end, force, phase, h
     shear, see_s, fourth = shear_bounds(plan, start, end, force, h, peaks.shear)
     if see_s and share == 0.0 and is_swift(plan):
         order = int(plan.floor_order)
-        w = Weights(k, c, kd, cd, 0.0)
+        w = Weights(k, c, kd, 0.0)
         shear, sure = top_inside(f, b, order, True, w, start, end, force, h, fourth, shear)
         see_s = not sure
     if see_s:

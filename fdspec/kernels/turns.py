@@ -1,6 +1,7 @@
 """The extremum of a quantity inside a piece, where the quantity turns there just once.
 
-A quantity is a weighted sum of displacements and velocities of floor and brace.  Where its curvature keeps
+A quantity is a weighted sum of the floor's displacement and velocity and of the brace's displacement; its
+velocity bears no force, for a brace with damping is left to the search.  Where the quantity's curvature keeps
 one sign it has at most one extremum.  That of the cubic through both ends is close, and the motion's own
 derivatives there lead to it, as they lead to a crossing (`fdspec.kernels.crossing`).  Other pieces are
 searched (`fdspec.kernels.roots`).
@@ -28,19 +29,18 @@ from fdspec.kernels.oscillator import acceleration, ahead, undamped_ahead
 
 
 class Weights(NamedTuple):
-    """What a quantity is of displacement and velocity of floor and brace, and of itself."""
+    """What a quantity is of the floor's displacement and velocity, the brace's displacement, and at rest."""
 
     u: float
     v: float
     d: float
-    e: float
     base: float
 
 
 @inlined
 def floor_weights(u, v, base):
     """Those of a quantity in which the brace has no part."""
-    return Weights(u, v, 0.0, 0.0, base)
+    return Weights(u, v, 0.0, base)
 
 
 @inlined
@@ -53,11 +53,11 @@ def still():
 def weighed(w, r, q):
     """A quantity's value and its first four derivatives, from those of floor and brace."""
     return (
-        fma(w.u, r.x, fma(w.v, r.v, fma(w.d, q.x, fma(w.e, q.v, w.base)))),
-        fma(w.u, r.v, fma(w.v, r.a, fma(w.d, q.v, w.e * q.a))),
-        fma(w.u, r.a, fma(w.v, r.j, fma(w.d, q.a, w.e * q.j))),
-        fma(w.u, r.j, fma(w.v, r.s, fma(w.d, q.j, w.e * q.s))),
-        fma(w.u, r.s, fma(w.v, r.c, fma(w.d, q.s, w.e * q.c))),
+        fma(w.u, r.x, fma(w.v, r.v, fma(w.d, q.x, w.base))),
+        fma(w.u, r.v, fma(w.v, r.a, w.d * q.v)),
+        fma(w.u, r.a, fma(w.v, r.j, w.d * q.a)),
+        fma(w.u, r.j, fma(w.v, r.s, w.d * q.j)),
+        fma(w.u, r.s, fma(w.v, r.c, w.d * q.s)),
     )
 
 
@@ -97,14 +97,12 @@ def top_inside(floor, brace, n, rings, w, start, end, force, h, fourth, best):
     r = rates_of(x, v, floor.g, floor.w2, p, force.p1)
     q = still()
     rate = floor.rate
-    sixth = acceleration(r.s, r.c, floor.g, floor.w2, 0.0) * w.v
     if rings:
         x, v, _ = undamped_ahead(start.d, start.e, brace.rate, brace.slowness, force.b0, force.b1, t)
         q = rates_of(x, v, 0.0, brace.w2, fma(force.b1, t, force.b0), force.b1)
         rate = max(rate, brace.rate)
-        sixth = fma(w.e, -brace.w2 * q.s, sixth)
     y, y1, y2, y3, y4 = weighed(w, r, q)
-    y5 = fma(w.u, r.c, fma(w.d, q.c, sixth))
+    y5 = fma(w.u, r.c, fma(w.d, q.c, w.v * acceleration(r.s, r.c, floor.g, floor.w2, 0.0)))
     later, moved = step_to_zero(y1, y2, y3, y4, y5)
     if not (rate * abs(later) <= NEAR and rate * moved <= SETTLED):
         return best, False

@@ -54,7 +54,6 @@ def fused(a: float, b: float, c: float) -> float:
 @pytest.mark.skipif(bool(config.DISABLE_JIT), reason="Python rounds the product first")
 def test_a_fused_sum_is_rounded_once() -> None:
     x = 1.0 + 2.0**-30
-    assert x * x - (x * x) == 0.0
     assert numba.njit(fused)(x, x, -(x * x)) == 2.0**-60
 
 

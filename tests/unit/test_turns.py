@@ -38,7 +38,7 @@ def series(b: Branch, x: float, v: float, p0: float, p1: float, h: float) -> np.
 def weighed(w: Weights, floor: np.ndarray, brace: np.ndarray, h: float) -> np.ndarray:
     """The quantity's series, one term shorter."""
     rate = np.arange(1, TERMS) / h
-    c = w.u * floor[:-1] + w.v * rate * floor[1:] + w.d * brace[:-1] + w.e * rate * brace[1:]
+    c = w.u * floor[:-1] + w.v * rate * floor[1:] + w.d * brace[:-1]
     c[0] += w.base
     c[20:] = 0.0
     return np.ascontiguousarray(c)
@@ -71,10 +71,10 @@ def test_the_turn_is_what_the_search_finds(
     brace = series(b, start.d, start.e, force.b0, force.b1, h)
     k, c, kd = FLOOR_MASS * f.w2, FLOOR_MASS * f.g, BRACE_MASS * b.w2
     w = {
-        "displacement": Weights(1.0, 0.0, 0.0, 0.0, 0.0),
-        "velocity": Weights(0.0, 1.0, 0.0, 0.0, 0.0),
-        "acceleration": Weights(-f.w2, -f.g, 0.0, 0.0, 0.4),
-        "shear": Weights(k, c, kd, 0.0, 0.0),
+        "displacement": Weights(1.0, 0.0, 0.0, 0.0),
+        "velocity": Weights(0.0, 1.0, 0.0, 0.0),
+        "acceleration": Weights(-f.w2, -f.g, 0.0, 0.4),
+        "shear": Weights(k, c, kd, 0.0),
     }[quantity]
     series_of_it = weighed(w, floor, brace if rings else np.zeros(TERMS), h)
     polynomial = np.polynomial.Polynomial(series_of_it)
@@ -103,7 +103,7 @@ def test_pieces_of_half_a_radian_are_mostly_sure() -> None:
         floor = series(f, start.u, start.v, force.p0, 0.0, h)
         line = np.polynomial.Polynomial(floor)
         end = Motion(line(1.0), line.deriv()(1.0) / h, 0.0, 0.0)
-        w = Weights(1.0, 0.0, 0.0, 0.0, 0.0)
+        w = Weights(1.0, 0.0, 0.0, 0.0)
         fourth = float(np.abs(line.deriv(4)(POINTS)).max()) * 1.01
         found.append(top_inside(f, b, 15, False, w, start, end, force, h, fourth, 0.0)[1])
     assert np.mean(found) > 0.8
