@@ -13,6 +13,7 @@ import math
 from fdspec.compiler.options import inlined, inner
 from fdspec.kernels.batch.shelf import STICK_MAP
 from fdspec.kernels.mathematics.polynomial_roots import TAIL
+from fdspec.kernels.storey.constants import is_slow
 from fdspec.kernels.storey.energy import STICK_FORM, STRIDE_FORM
 from fdspec.kernels.types import (
     KICK,
@@ -96,9 +97,9 @@ def put_lane(p, lane, plan, shelf, forms, stride, certify):
     p[FLOOR_MASS * WIDTH + lane] = storey.floor_mass
     p[BRACE_MASS * WIDTH + lane] = storey.brace_mass
     p[LIGHT * WIDTH + lane] = 1.0 / plan.mass
-    # A loose brace has no quasi-static motion; a damped one's losses are not tallied a step at a time.
-    loose = massive and storey.brace_stiffness == 0.0
-    p[MUST_WALK * WIDTH + lane] = 1.0 if loose or (certify and storey.brace_damping > 0.0) else 0.0
+    # A slow brace's quasi-static motion says nothing; a damped one's losses are not tallied a step at a time.
+    slow = massive and is_slow(plan)
+    p[MUST_WALK * WIDTH + lane] = 1.0 if slow or (certify and storey.brace_damping > 0.0) else 0.0
     put_branch(p, S_G, lane, plan.stick, plan.step)
     put_branch(p, F_G, lane, plan.floor, plan.step)
     tail_u, tail_v = at(p, S_TAIL_U, lane), at(p, S_TAIL_V, lane)
