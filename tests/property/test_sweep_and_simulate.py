@@ -24,7 +24,7 @@ from fdspec.kernels.storey.history import RESULTS
 FloatArray = NDArray[np.float64]
 
 WITHIN = 1e-9
-"""Of the largest of each kind in a history; chance touches at a tie may move a peak by the root of rounding."""
+"""Of the largest of each kind in a history."""
 
 TIES = (1.0, 1.0 - 1e-15, 1.0 + 1e-15)
 
@@ -105,8 +105,10 @@ def draw(number: int) -> Hard:
     else:
         force = float(reached.max()) * log_uniform(rng, 0.02, 0.98)
     force = max(force, 1e-6)
-    ratio = float(rng.choice([0.999999, rng.uniform(0.3, 0.999)])) if kind > 1 and rng.integers(3) == 0 else 1.0
-    if kind > 1 or rng.integers(3) == 0:  # cut where something has just become larger than in an earlier swing
+    # With less kinetic friction a tie is a fork: slip or not, by the last bit.
+    below = kind > 1 and rng.integers(3) == 0
+    ratio = float(rng.choice([0.999999, rng.uniform(0.3, 0.999)])) if below else 1.0
+    if kind > 1 or rng.integers(3) == 0:  # cut where something has just passed an earlier swing
         whole = history_of(frame, force, ratio * force, motion)
         quantities = (whole.displacement, whole.velocity, whole.acceleration, whole.storey_shear)
         size = np.abs(quantities[rng.integers(4)][:, 0])
