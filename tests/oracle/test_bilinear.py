@@ -20,6 +20,7 @@ def _random_cell(rng):
     dt = float(rng.choice([0.005, 0.01, 0.02, 0.05]))
     ground = np.cumsum(rng.normal(size=n)) * rng.uniform(0.1, 2.0)
     ground[0] = 0.0
+    ground *= min(1.0, 40.0 / np.abs(ground).max())
     period = float(np.exp(rng.uniform(np.log(4 * dt), np.log(3.0))))
     zeta = float(rng.choice([0.0, 0.02, 0.05, 0.3]))
     alpha = float(rng.choice([0.0, 0.02, 0.1, 0.5, -0.03]))
