@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from fdspec.cli.output import PICTURES, force_option, free, save_picture
 
 if TYPE_CHECKING:
-    import pandas as pd
     import xarray as xr
 
 
@@ -97,7 +96,7 @@ def _select(opened: xr.Dataset, choice: str) -> xr.Dataset:
     return opened.isel({dim: match[0]})
 
 
-def _write(fit: xr.Dataset, table: pd.DataFrame, path: Path) -> None:
+def _write(fit: xr.Dataset, table: Any, path: Path) -> None:
     from fdspec.store.replacing import replacing
 
     with replacing(path, suffixes=(path.suffix,)) as part:

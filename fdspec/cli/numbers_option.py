@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 
-class Numbers(click.ParamType):
+class Numbers(click.ParamType[list[float]]):
     """`0.1,0.5,1`, or `0.05:5:100` for a hundred numbers evenly spaced on a logarithmic scale, or both in
     one."""
 

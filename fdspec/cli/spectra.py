@@ -85,22 +85,23 @@ def spectra(
         find_record(record, scaled=not raw)
         for record in named_records(records or STUDY_RECORDS, units, dt, channel)
     ]
-    given = {"ductility": ductility, "reduction_factor": reduction_factor, "strength": strength}
-    inelastic = {name: values for name, values in given.items() if values is not None}
+    inelastic = any(values is not None for values in (ductility, reduction_factor, strength))
     if inelastic:
         found = inelastic_spectra(
             motions,
             periods,
             damping_ratio=damping_ratio,
             hardening_ratio=hardening_ratio,
+            ductility=ductility,
+            reduction_factor=reduction_factor,
+            strength=strength,
             progress=True,
-            **inelastic,
         )
     else:
         if hardening_ratio != 0.0:
             raise click.UsageError("--hardening-ratio needs --ductility, --reduction-factor or --strength")
         found = elastic_spectra(motions, periods, damping_ratio, after="peak")
-    write_table_or_picture(found, path, inelastic=bool(inelastic))
+    write_table_or_picture(found, path, inelastic=inelastic)
     click.echo(f"{path}")
 
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from fdspec.errors import InvalidInput
 from fdspec.figures.caption import add_caption
@@ -18,7 +20,7 @@ if TYPE_CHECKING:
 LINES: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """Of Okabe and Ito's palette."""
 
-LEVELS: Final = {
+LEVELS: Final[dict[str, tuple[str, Callable[[float], str]]]] = {
     "strength": ("strength", lambda value: f"{value / G:.3g} g"),
     "ductility_target": ("ductility", lambda value: f"{value:g}"),
     "reduction_factor": ("R", lambda value: f"{value:g}"),
@@ -66,7 +68,7 @@ def plot_inelastic_spectra(spectra: xr.Dataset, *, title: str = "", caption: str
         axis.set_xlabel("period, s")
         axis.set_ylabel(label)
         axis.grid(visible=True, which="both", color="0.92", linewidth=0.5)
-        axis.xaxis.set_major_formatter("{x:g}")
+        _plain_ticks(axis)
     if shown == "ductility":
         left.set_yscale("log")
     else:
@@ -124,7 +126,7 @@ def plot_fragility(fit: xr.Dataset, *, confidence: float = 0.9, title: str = "",
     if own:
         axis.plot(levels, share, "o", color="black", markersize=4, label="histories")
     axis.set_xscale("log")
-    axis.xaxis.set_major_formatter("{x:g}")
+    _plain_ticks(axis)
     axis.set_ylim(0.0, 1.0)
     unit = str(fit["median"].attrs.get("units", "1"))
     axis.set_xlabel(str(fit.attrs.get("measure", dim)) + ("" if unit == "1" else f", {unit}"))
@@ -157,11 +159,10 @@ def plot_ida(curves: xr.Dataset, *, limit: float | None = None, title: str = "",
     figure = Figure(figsize=(6.0, 4.6), layout="constrained", dpi=150)
     axis = figure.subplots()
     intensity = curves["intensity"].values
-    finite = lambda values: np.where(np.isfinite(values), values, np.nan)  # noqa: E731
     for line in curves["demand"].transpose("record", "intensity").values:
-        axis.plot(finite(line), intensity, color="0.75", linewidth=0.8)
+        axis.plot(_finite(line), intensity, color="0.75", linewidth=0.8)
     for k, fractile in enumerate(curves["fractile"].values):
-        values = finite(curves["fractile_demand"].sel(fractile=fractile).values)
+        values = _finite(curves["fractile_demand"].sel(fractile=fractile).values)
         style = "-" if fractile == 0.5 else "--"
         axis.plot(values, intensity, style, color=LINES[k], linewidth=2.0, label=f"{fractile:.0%}")
     if limit is not None:
@@ -179,8 +180,19 @@ def plot_ida(curves: xr.Dataset, *, limit: float | None = None, title: str = "",
     return figure
 
 
+def _plain_ticks(axis: Axes) -> None:
+    """Label 1, 2 and 5 in each decade of a logarithmic axis, as plain numbers."""
+    axis.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.xaxis.set_major_formatter("{x:g}")
+    axis.xaxis.set_minor_formatter(NullFormatter())
+
+
+def _finite(values: np.ndarray) -> np.ndarray:
+    return np.where(np.isfinite(values), values, np.nan)
+
+
 def _band(axis: Axes, x: np.ndarray, values: np.ndarray, colour: str, label: str) -> None:
-    finite = np.where(np.isfinite(values), values, np.nan)
+    finite = _finite(values)
     if not np.isfinite(finite).all(axis=0).any():
         return
     if values.shape[0] > 1:

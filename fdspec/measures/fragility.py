@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Final
 
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 COLLAPSED: Final = "collapsed"
 """The status that counts as an exceedance, whatever the demand was until then."""
 
-ATTRIBUTES: Final = MappingProxyType(
+ATTRIBUTES: Final[Mapping[str, Mapping[str, object]]] = MappingProxyType(
     {
         "median": {"long_name": "intensity at which half of the histories exceed the limit"},
         "dispersion": {"long_name": "standard deviation of the logarithm of the capacity", "units": "1"},

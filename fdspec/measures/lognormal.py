@@ -58,30 +58,42 @@ def fit_lognormal(
     record, weight = record[counted], weight[counted]
     status = _status(x, yes)
     if status != FITTED:
-        return Fit(*[math.nan] * 6, status)
+        return _no_fit(math.nan, status)
     centre, spread = float(np.mean(x)), float(np.std(x))
     z = (x - centre) / spread
     design = np.stack([np.ones_like(z), z])
     sign = np.where(yes, 1.0, -1.0)
     theta = np.array([0.0, 1.0])
     value = _log_likelihood(theta, design, sign, weight)
+    scores, information = _derivatives(theta, design, sign, weight)
     for _ in range(STEPS):
-        eta = sign * (theta @ design)
-        mills = np.exp(-0.5 * eta * eta - 0.5 * math.log(2.0 * math.pi) - log_ndtr(eta))
-        gradient = design @ (weight * sign * mills)
-        information = (design * (weight * mills * (mills + eta))) @ design.T
-        step = np.linalg.solve(information, gradient)
+        step = np.linalg.solve(information, scores.sum(axis=1))
         while (ahead := _log_likelihood(theta + step, design, sign, weight)) < value - 1e-12 * abs(value):
             step *= 0.5
         theta, value = theta + step, ahead
+        scores, information = _derivatives(theta, design, sign, weight)
         if np.abs(step).max() <= 1e-13 * np.abs(theta).max():
             break
     to_log = np.array([[1.0, -centre / spread], [0.0, 1.0 / spread]])
     a, b = to_log @ theta
     if b <= 0.0:
-        return Fit(*[math.nan] * 5, value, NOT_INCREASING)
-    covariance = to_log @ _clustered(information, design * (weight * sign * mills), record) @ to_log.T
+        return _no_fit(value, NOT_INCREASING)
+    covariance = to_log @ _clustered(information, scores, record) @ to_log.T
     return Fit(math.exp(-a / b), 1.0 / b, covariance[0, 0], covariance[0, 1], covariance[1, 1], value, FITTED)
+
+
+def _no_fit(log_likelihood: float, status: int) -> Fit:
+    missing = math.nan
+    return Fit(missing, missing, missing, missing, missing, log_likelihood, status)
+
+
+def _derivatives(
+    theta: FloatArray, design: FloatArray, sign: FloatArray, weight: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """The score of each history (2, n) and the information matrix (2, 2), its negative second derivative."""
+    eta = sign * (theta @ design)
+    mills = np.exp(-0.5 * eta * eta - 0.5 * math.log(2.0 * math.pi) - log_ndtr(eta))
+    return design * (weight * sign * mills), (design * (weight * mills * (mills + eta))) @ design.T
 
 
 def _clustered(information: FloatArray, scores: FloatArray, record: IntArray) -> FloatArray:

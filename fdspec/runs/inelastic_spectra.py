@@ -20,6 +20,7 @@ from fdspec.engines.bilinear import (
 from fdspec.errors import InvalidInput
 from fdspec.kernels.bilinear.history import RESULTS
 from fdspec.model.motion import GroundMotion
+from fdspec.model.number_check import finite_number
 from fdspec.runs.cube import assemble, named
 from fdspec.runs.spectra_variables import registry
 from fdspec.scheduling.threads import fan_out, plan
@@ -277,8 +278,7 @@ def _increasing(argument: str, values: ArrayLike) -> FloatArray:
 
 
 def _between(argument: str, value: float, least: float, below: float) -> float:
-    if not isinstance(value, (int, float, np.floating, np.integer)) or isinstance(value, bool):
-        raise InvalidInput(f"{argument} must be a number, not {value!r}")
+    value = finite_number(argument, value)
     if not (least <= value < below and math.isfinite(value)):
         text = f"below {below:g}" if math.isinf(least) else f"at least {least:g} and below {below:g}"
         raise InvalidInput(f"{argument} must be {text}, not {value:g}")
