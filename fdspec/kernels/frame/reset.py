@@ -74,7 +74,7 @@ def begin_slip(frame, kind, phase, fresh, state, tally, i, sign, stood):
     if kind[i] == PLAIN:
         fresh[i] = 2 if static == kinetic and fresh[i] != JUMPED else 1
     elif frame[BRACE_DAMPING, i] > 0.0:
-        fresh[i] = 1 if static == kinetic else 0
+        fresh[i] = 1
     else:
         drift_rate = state[VELOCITY, i] - (state[VELOCITY, i - 1] if i > 0 else 0.0)
         fresh[i] = 1 if stood and static == kinetic and sign * drift_rate <= 0.0 else 0

@@ -48,6 +48,7 @@ from fdspec.kernels.frame.model import (
     MASS,
     MASSLESS,
     SLIDING_COMPLIANCE,
+    SLIP_FORCE,
     SLIP_RATE,
     SPRING,
 )
@@ -386,10 +387,12 @@ def follow_drift(frame, model, state, fresh, phase, n, h, series, i):
             excess *= decay / k
             series[OFFSET, i + 1, k] = series[DISPLACEMENT, i + 1, k] - series[DISPLACEMENT, i, k] - excess
         series[SLIDING, i + 1, k] = series[VELOCITY, i + 1, k] - series[VELOCITY, i, k] - rate * excess
-    if fresh[i] > 0:
-        series[SLIDING, i + 1, 0] = 0.0
+    if fresh[i] > 0:  # it begins or turns here: its first velocity is known, and not from differences
+        gap = frame[SLIP_FORCE, i] - frame[KINETIC_SLIP_FORCE, i]
+        speed = -rate * phase[i] * gap / stiffness
+        series[SLIDING, i + 1, 0] = speed
         if rate != 0.0:
-            series[OFFSET, i + 1, 1] = 0.0
+            series[OFFSET, i + 1, 1] = speed * h
 
 
 @inner
