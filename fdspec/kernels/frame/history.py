@@ -64,6 +64,8 @@ from fdspec.kernels.frame.taylor import (
     relax,
 )
 from fdspec.kernels.types import (
+    ENERGY_NOT_CLOSED,
+    ENERGY_TOLERANCE,
     NON_FINITE_STATE,
     OK,
     TRANSITION_CAP,
@@ -206,6 +208,7 @@ def history(
     tracing = traces.shape[0] > 0
     status = OK
     work_in = 0.0
+    most_in = 0.0
     viscous = 0.0
     written = 0
     events = 0
@@ -286,6 +289,7 @@ def history(
                     written += 1
             if done > 0.0:
                 work_in += input_work(momentum, n, h, acceleration, rise, done)
+                most_in = max(most_in, abs(work_in))
                 if certify or tracing:
                     viscous += viscous_work(frame, dense_damping, damped, series, n, h, done, speeds)
                 end_of_step(series, n, done, state)
@@ -346,12 +350,17 @@ def history(
         by_storey[10, i] = work
     error = 0.0
     if certify:
-        scale = abs(work_in) + stored
+        # Net input may be zero, as over whole periods of a frame without damping; what the balance has to
+        # resolve is the most that was ever put in.
+        scale = max(most_in + stored, viscous + friction)
         if scale > 0.0:
             now = stored_energy(frame, dense_stiffness, state)
             error = abs(work_in + stored - now - viscous - friction) / scale
-    if status == OK and not math.isfinite(friction + viscous + work_in + error):
-        status = NON_FINITE_STATE
+    if status == OK:
+        if not math.isfinite(friction + viscous + work_in + error):
+            status = NON_FINITE_STATE
+        elif error > ENERGY_TOLERANCE:
+            status = ENERGY_NOT_CLOSED
     totals[0] = transitions
     totals[1] = friction
     totals[2] = viscous
