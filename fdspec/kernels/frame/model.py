@@ -186,7 +186,7 @@ def prepare(frame, model, held):
 
 @inner
 def slip_norms(frame, held, i):
-    """Bounds as ``held``, those of :func:`held_rates`, with the brace of storey i, which has mass, in motion."""
+    """Bounds as those of :func:`held_rates`, ``held``, with the brace of storey i, one with mass, in motion."""
     brace = frame[BRACE_MASS, i]
     stiffness = frame[BRACE_STIFFNESS, i]
     damping = frame[BRACE_DAMPING, i]
