@@ -186,7 +186,7 @@ def prepare(frame, model, held):
 
 @inner
 def slip_norms(frame, held, i):
-    """Bounds as those of :func:`held_rates`, ``held``, with the brace of storey i, one with mass, in motion."""
+    """Bounds as ``held``, those of :func:`held_rates`, with the brace of storey i in motion; it has mass."""
     brace = frame[BRACE_MASS, i]
     stiffness = frame[BRACE_STIFFNESS, i]
     damping = frame[BRACE_DAMPING, i]
