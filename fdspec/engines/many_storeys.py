@@ -14,9 +14,6 @@ from fdspec.kernels.frame.output import STOREY_TRACES, TOTAL_TRACES
 from fdspec.model.building import Building, Frame
 from fdspec.model.motion import GroundMotion
 
-MANY_STEPS = 1e9
-"""Steps that take a quarter of an hour and more."""
-
 
 def rates_of(frame: Frame) -> FloatArray:
     """Bounds on the rates (1/s) that steps have to follow.
@@ -46,25 +43,6 @@ def estimated_steps(building: Building, motion: GroundMotion, free_vibration: fl
     """
     steps = motion.n - 1 + np.ceil(free_vibration / motion.dt - 1e-9)
     return float(steps * max(1.0, np.ceil(motion.dt * rates_of(building.frame).max() / RADIANS)))
-
-
-def why_so_many(building: Building, motion: GroundMotion, free_vibration: float) -> str:
-    """Return the argument, with its value, to which a history owes most of its steps."""
-    if free_vibration > motion.duration and estimated_steps(building, motion, 0.0) < MANY_STEPS:
-        return f"free_vibration {free_vibration:g} s"
-    rates = rates_of(building.frame)
-    fastest = int(np.argmax(rates))
-    if motion.dt * rates[fastest] <= RADIANS:
-        return f"the motion's {motion.n} samples"
-    if fastest > 0 and rates[fastest] > 100.0 * rates[0]:
-        storey = fastest - 1
-        return (
-            f"brace_mass {building.brace_mass[storey]:g} kg in storey {fastest}, whose brace of "
-            f"{building.brace_stiffness[storey]:g} N/m moves at {rates[fastest]:.3g} 1/s"
-        )
-    return (
-        f"dt {motion.dt:g} s of the motion beside parts of the building that move at {rates[fastest]:.3g} 1/s"
-    )
 
 
 def peaks_of(frame: Frame, motion: GroundMotion, *, certify: bool) -> tuple[FloatArray, FloatArray]:
