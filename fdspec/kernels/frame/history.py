@@ -41,7 +41,6 @@ from fdspec.kernels.frame.output import write_traces
 from fdspec.kernels.frame.peaks import PEAK_ROWS, raise_peaks
 from fdspec.kernels.frame.reset import (
     RELEASE,
-    SOON,
     TALLY_ROWS,
     begin_free,
     begin_slip,
@@ -224,7 +223,7 @@ def history(
             if massless:
                 relax(frame, model, kind, phase, fresh, state)
                 rate = fastest_rate(model, phase, held_rate)
-            soon = SOON * min(dt, 1.0 / rate)
+            radian = min(dt, 1.0 / rate)
             parts = max(1, math.ceil((dt - tau) * rate / radians - 1e-9))
             h = (dt - tau) / parts
             n = order_for(rate * h, extra)
@@ -250,7 +249,7 @@ def history(
                 n,
                 h,
                 step * dt + tau,
-                soon,
+                radian,
                 acceleration,
                 rise,
                 c,
@@ -317,7 +316,7 @@ def history(
                 signs,
                 x,
                 step * dt + tau,
-                soon,
+                radian,
                 times,
                 storeys,
                 phases,
