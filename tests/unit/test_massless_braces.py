@@ -174,8 +174,9 @@ def test_eighty_random_frames() -> None:
 
 
 @pytest.mark.slow
-def test_ten_thousand_random_frames() -> None:
-    assert faults(range(80, 10_080)) == []
+@pytest.mark.parametrize("part", range(5))
+def test_ten_thousand_random_frames(part: int) -> None:
+    assert faults(range(2000 * part, 2000 * (part + 1))) == []
 
 
 def faults(seeds: range) -> list[str]:
@@ -205,7 +206,7 @@ def faults(seeds: range) -> list[str]:
 def test_a_balance_that_does_not_close_is_a_status() -> None:
     """A step far beyond what its series can bear stands for a rule that went wrong."""
     building = Building([2e4] * 3, 8e6, 0.0, 16e6, 40e3, damping=ModalDamping(0.02))
-    wrong = run(building, GroundMotion([0.0, 3.0, -2.0, 0.0], 0.5), radians=100.0)
+    wrong = run(building, GroundMotion([0.0, 3.0, -2.0, 0.0], 2.0), radians=1000.0)
     assert np.isfinite(wrong.peak_displacement).all()
     assert wrong.energy_error > ENERGY_TOLERANCE
     assert wrong.status == ENERGY_NOT_CLOSED
