@@ -127,7 +127,9 @@ def mend(
                 if name in {ROOT, COPY}:
                     continue
                 if _checksum(part / name) != told[name]:
-                    raise StoreError(f"{target}: {name} is damaged for good; start over with --restart (restart=True)")
+                    raise StoreError(
+                        f"{target}: {name} is damaged for good; start over with --restart (restart=True)"
+                    )
                 clear(target / name)
                 (target / name).parent.mkdir(parents=True, exist_ok=True)
                 (part / name).replace(target / name)
@@ -460,7 +462,9 @@ def _attributes(path: str | os.PathLike[str]) -> dict[str, Any]:
     kinds = {FORMAT: int, BLOCKS: dict, IDENTITY: dict, ORDER: list, FILES: dict}
     for name, kind in kinds.items():
         if not isinstance(attributes.get(name, kind()), kind):
-            raise StoreError(f"cannot open {os.fspath(path)}: the store is damaged: {name} is no {kind.__name__}")
+            raise StoreError(
+                f"cannot open {os.fspath(path)}: the store is damaged: {name} is no {kind.__name__}"
+            )
     return attributes
 
 

@@ -75,7 +75,14 @@ def save(dataset: xr.Dataset, path: str | os.PathLike[str], *, overwrite: bool =
     if not isinstance(dataset, xr.Dataset):
         hint = ', such as array.to_dataset(name="...")' if isinstance(dataset, xr.DataArray) else ""
         raise InvalidInput(f"dataset must be an xarray.Dataset{hint}, got {type(dataset).__name__}")
-    with replacing(path, overwrite=overwrite and is_complete(dataset)) as part:
+    if not is_complete(dataset):
+        if os.path.lexists(path):
+            raise StoreError(
+                f"cannot write {os.fspath(path)}: cells of the cube were not computed, and a file is there that "
+                "they would replace; give another name, or start the sweep again"
+            )
+        overwrite = False
+    with replacing(path, overwrite=overwrite) as part:
         _check(dataset)
         dataset = with_true_parameters(dataset.drop_encoding())
         about = {FORMAT: np.int32(VERSION), checksums.CHECKSUMS: json.dumps(checksums.of_all(dataset))}
@@ -144,13 +151,17 @@ def open(path: str | os.PathLike[str], *, lazily: bool | None = None) -> xr.Data
     except FdspecError:
         raise
     except MemoryError:
-        raise StoreError(f"cannot open {os.fspath(path)}: not enough memory; open it with lazily=True") from None
+        raise StoreError(
+            f"cannot open {os.fspath(path)}: not enough memory; open it with lazily=True"
+        ) from None
     except Exception as error:
         # What the libraries raise on damaged files has no type of its own: KeyError, RuntimeError, OSError, ...
         if told := no_resources(error):
             raise DiskError(f"cannot open {os.fspath(path)}: {told}") from error
         kind, remedy = ("store", "'fdspec check' says where") if store else ("file", "write it again")
-        raise StoreError(f"cannot open {os.fspath(path)}: the {kind} is damaged or incomplete; {remedy}") from error
+        raise StoreError(
+            f"cannot open {os.fspath(path)}: the {kind} is damaged or incomplete; {remedy}"
+        ) from error
 
 
 def checksums_of(path: str | os.PathLike[str]) -> dict[str, str] | None:

@@ -46,7 +46,9 @@ def records_of(parameters: Mapping[str, Any]) -> dict[str, str]:
     try:
         return {str(one["name"]): str(one["checksum"]) for one in parameters["records"]}
     except (KeyError, TypeError):
-        raise ValueError("the attribute parameters does not tell names and checksums of the records") from None
+        raise ValueError(
+            "the attribute parameters does not tell names and checksums of the records"
+        ) from None
 
 
 def is_cube(dataset: xr.Dataset) -> bool:
