@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from zarr.storage import LocalStore
 
-from fdspec.errors import DiskError, StoreError
+from fdspec.errors import DamagedError, DiskError, StoreError
 from fdspec.store.checksums import is_whole
 from fdspec.store.holding import hold
 from fdspec.store.refusals import no_resources
@@ -77,7 +77,7 @@ class CheckedStore(LocalStore):
             if not S_ISREG((self.root / key).stat().st_mode):
                 if (self.root / key).is_dir() and "/c/" not in f"/{key}/":
                     return
-                raise StoreError(f"{self.root}: {key} is damaged, it is no regular file; {_REMEDY}")
+                raise DamagedError(f"{self.root}: {key} is damaged, it is no regular file; {_REMEDY}")
 
     def _seen(self, key: str, found: Buffer | None) -> Buffer | None:
         name, is_chunk, _ = key.partition("/c/")
@@ -87,9 +87,9 @@ class CheckedStore(LocalStore):
             if not (self.root / "zarr.json").is_file():
                 raise StoreError(f"{self.root}: the store was removed")
             if self._finished(key):
-                raise StoreError(f"{self.root}: {key} is missing; {_REMEDY}")
+                raise DamagedError(f"{self.root}: {key} is missing; {_REMEDY}")
         elif not is_whole(found.to_bytes()):
-            raise StoreError(f"{self.root}: {key} is damaged; {_REMEDY}")
+            raise DamagedError(f"{self.root}: {key} is damaged; {_REMEDY}")
         return found
 
     def _finished(self, key: str) -> bool:

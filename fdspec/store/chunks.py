@@ -23,13 +23,13 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from fdspec.errors import BusyError, DiskError, StoreError
+from fdspec.errors import BusyError, DamagedError, DiskError, StoreError
 from fdspec.store import layout
 from fdspec.store.blocks import Blocks
 from fdspec.store.checksums import is_whole, of_bytes
 from fdspec.store.holding import is_held
 from fdspec.store.refusals import no_resources
-from fdspec.variables import Variable
+from fdspec.variables import NOT_COMPUTED, Variable
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -59,9 +59,6 @@ ROOT: Final = "zarr.json"
 
 COPY: Final = "status/root.json"
 """A second ``zarr.json``, in the folder of an array, where no reader of Zarr looks."""
-
-NOT_COMPUTED: Final = -1
-"""Status of a cell whose block is not finished."""
 
 SUFFIXES: Final = (".zarr",)
 
@@ -280,7 +277,7 @@ def open_store(path: str | os.PathLike[str]) -> tuple[xr.Dataset, int, int]:
 
     if damaged := damaged_files(path):
         told = ", ".join(damaged[:5]) + (f" and {len(damaged) - 5} more" if len(damaged) > 5 else "")
-        raise StoreError(
+        raise DamagedError(
             f"cannot open {os.fspath(path)}: the store is damaged: {told}; start the sweep again to mend it"
         )
     attributes = _attributes(path)
@@ -443,9 +440,13 @@ def _attributes(path: str | os.PathLike[str]) -> dict[str, Any]:
     """Return the attributes of one of fdspec's stores."""
     found = [one for one in (_root(Path(path, ROOT)), _root(Path(path, COPY))) if one]
     if not found:
+        if is_ours(path):
+            raise DamagedError(
+                f"cannot open {os.fspath(path)}: the store is damaged: zarr.json; start over with --restart "
+                "(restart=True)"
+            )
         raise StoreError(
-            f"cannot open {os.fspath(path)}: it is no Zarr store of fdspec's, or its zarr.json is damaged; start "
-            "over with --restart (restart=True)"
+            f"cannot open {os.fspath(path)}: it is no Zarr store, or one that cannot be read as one"
         )
     attributes: dict[str, Any] = found[0]["attributes"]
     if not {FORMAT, BLOCKS, IDENTITY, ORDER} <= attributes.keys():
@@ -462,7 +463,7 @@ def _attributes(path: str | os.PathLike[str]) -> dict[str, Any]:
     kinds = {FORMAT: int, BLOCKS: dict, IDENTITY: dict, ORDER: list, FILES: dict}
     for name, kind in kinds.items():
         if not isinstance(attributes.get(name, kind()), kind):
-            raise StoreError(
+            raise DamagedError(
                 f"cannot open {os.fspath(path)}: the store is damaged: {name} is no {kind.__name__}"
             )
     return attributes
@@ -474,7 +475,7 @@ def _blocks(attributes: Mapping[str, Any]) -> Blocks:
     if not (isinstance(sizes, dict) and isinstance(edges, dict) and list(sizes) == list(edges)) or not all(
         isinstance(one, int) and one > 0 for one in (*sizes.values(), *edges.values())
     ):
-        raise StoreError(f"the store is damaged: {BLOCKS} does not say how it is cut")
+        raise DamagedError(f"the store is damaged: {BLOCKS} does not say how it is cut")
     return Blocks(sizes, edges)
 
 

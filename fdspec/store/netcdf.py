@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from fdspec.errors import DiskError, FdspecError, InvalidInput, StoreError
+from fdspec.errors import DamagedError, DiskError, FdspecError, InvalidInput, StoreError
 from fdspec.store import checksums, chunks, layout
-from fdspec.store.chunks import NOT_COMPUTED
 from fdspec.store.memory import check_size
 from fdspec.store.origin import with_true_parameters
 from fdspec.store.refusals import no_resources
 from fdspec.store.replacing import replacing
 from fdspec.store.undisturbed import undisturbed
+from fdspec.variables import NOT_COMPUTED
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -207,7 +207,7 @@ def _read(path: str | os.PathLike[str], lazily: bool) -> xr.Dataset:
         version = _check_format(on_disk, path)
         told = on_disk.attrs.get(checksums.CHECKSUMS)
         if (told is None) != (version < 2):
-            raise StoreError(f"cannot open {os.fspath(path)}: the file is damaged; write it again")
+            raise DamagedError(f"cannot open {os.fspath(path)}: the file is damaged; write it again")
         if not lazily:
             check_size(on_disk, path)
         opened = layout.from_disk(_without_marks(on_disk))
@@ -218,7 +218,7 @@ def _read(path: str | os.PathLike[str], lazily: bool) -> xr.Dataset:
             # Numbers that are read later are compared by `fdspec check`, and guarded by HDF5.
             names = opened.coords if lazily else opened.variables
             if wrong := checksums.differing(opened, _told(told), names):
-                raise StoreError(
+                raise DamagedError(
                     f"cannot open {os.fspath(path)}: the file is damaged: {', '.join(wrong)} "
                     "not as written; write it again"
                 )
@@ -319,7 +319,7 @@ def _check_format(on_disk: xr.Dataset, path: str | os.PathLike[str]) -> int:
         )
     version = on_disk.attrs[FORMAT]
     if not isinstance(version, int | np.integer) or version < 1:
-        raise StoreError(f"cannot open {os.fspath(path)}: the file is damaged: its layout has no version")
+        raise DamagedError(f"cannot open {os.fspath(path)}: the file is damaged: its layout has no version")
     if version > VERSION:
         raise StoreError(
             f"cannot open {os.fspath(path)}: its layout is version {version}, this fdspec knows {VERSION}; "
