@@ -31,6 +31,7 @@ def export(cube: str, output: str | None, page: bool, record: str | None, force:
     maps, surfaces and the best pretension in any browser, without a server; histories need `fdspec explore`.
     """
     from fdspec import store
+    from fdspec.store.suitable import require_sound
 
     if output is not None and Path(output).suffix.lower() in PAGES:
         page = True
@@ -41,12 +42,15 @@ def export(cube: str, output: str | None, page: bool, record: str | None, force:
         raise click.UsageError("Give -o FILE.nc or -o FILE.csv, or --html.")
     else:
         path = free(output, force=force, suffixes=(".nc", ".csv", *PAGES))
-        store.export(store.open(cube), path, record=record)
+        opened = store.open(cube)
+        require_sound(opened, cube)
+        store.export(opened, path, record=record)
     click.echo(f"{path}")
 
 
 def _write_page(cube: str, path: Path, record: str | None) -> None:
     from fdspec import store
+    from fdspec.store.suitable import require_cube
 
     try:
         from fdspec.explore.content import Content
@@ -54,6 +58,7 @@ def _write_page(cube: str, path: Path, record: str | None) -> None:
     except ModuleNotFoundError as error:
         raise InvalidInput(f"a page needs {error.name}: pip install 'fdspec[explore]'") from None
     opened = store.open(cube)
+    require_cube(opened, cube, "pages")
     if record is not None and "record" in opened.dims:
         names = [str(name) for name in opened["record"].values]
         if record not in names:

@@ -67,9 +67,11 @@ def figures(
     from fdspec.figures import plot_contact_sheet
     from fdspec.report.study_figures import applied_motions, chosen, study_pictures
     from fdspec.runs.study import Study
+    from fdspec.store.suitable import require_cube
     from fdspec.scheduling.progress import progress
 
     dataset = store.open(cube)
+    require_cube(dataset, cube, "the study's figures")
     given = Study.read(study_file).motions() if study_file else ()
     pictures = chosen(study_pictures(dataset, given), _numbers(only))
     if listed:

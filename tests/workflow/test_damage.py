@@ -7,7 +7,7 @@ import os
 import random
 import shutil
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import netCDF4
@@ -28,11 +28,17 @@ AXES = {"period": [0.2, 0.5], "pretension": [10e3, 30e3], "stiffness_ratio": [1.
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     """The CF checker takes seconds, and knows nothing of damage."""
     monkeypatch.setattr("fdspec.store.check.shutil.which", lambda *_, **__: None)
-    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
+
+
+@pytest.fixture(scope="module", autouse=True)
+def same_time() -> Iterator[None]:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("SOURCE_DATE_EPOCH", "1700000000")
+        yield
 
 
 @pytest.fixture(scope="module")
-def right(tmp_path_factory: pytest.TempPathFactory) -> xr.Dataset:
+def right() -> xr.Dataset:
     return fdspec.sweep([record("a", samples=60), record("b", 2, 50)], **AXES)
 
 
@@ -82,11 +88,20 @@ def damages(content: bytes, chance: random.Random) -> dict[str, bytes | None]:
     }
 
 
-def test_every_file_of_a_store(store: Path, whole: Path, right: xr.Dataset) -> None:
+@pytest.mark.slow
+def test_every_file_of_a_store_in_every_way(store: Path, right: xr.Dataset) -> None:
+    damage_every_file(store, right, 5)
+
+
+def test_every_file_of_a_store(store: Path, right: xr.Dataset) -> None:
+    damage_every_file(store, right, 1)
+
+
+def damage_every_file(store: Path, right: xr.Dataset, ways: int) -> None:
     chance = random.Random(1)
     for file in sorted(path for path in store.rglob("*") if path.is_file()):
         content = file.read_bytes()
-        for kind, damaged in damages(content, chance).items():
+        for kind, damaged in chance.sample(sorted(damages(content, chance).items()), ways):
             if damaged == content:
                 continue
             told = f"{kind}: {file.relative_to(store)}"
@@ -128,15 +143,24 @@ def test_the_next_sweep_mends_a_store(store: Path, right: xr.Dataset, kind: str)
     xr.testing.assert_identical(fdspec.open(store, lazily=False), right)
 
 
+@pytest.mark.slow
+def test_many_bits_of_a_netcdf_file(tmp_path: Path, right: xr.Dataset) -> None:
+    flip_bits(tmp_path / "cube.nc", right, 1500)
+
+
 def test_bits_of_a_netcdf_file(tmp_path: Path, right: xr.Dataset) -> None:
-    path = tmp_path / "cube.nc"
+    flip_bits(tmp_path / "cube.nc", right, 60)
+
+
+def flip_bits(path: Path, right: xr.Dataset, count: int) -> None:
     fdspec.save(right, path)
     content = path.read_bytes()
     chance = random.Random(3)
-    for _ in range(150):
+    for _ in range(count):
         path.write_bytes(damages(content, chance)["a bit"] or b"")
         given = opened(path)
         assert given is None or given.identical(right)
+        assert given is not None or seen(path)
 
 
 @pytest.mark.parametrize("size", [0, 7, 100, 0.3, 0.9, 0.999])
