@@ -306,7 +306,8 @@ def _check_magic(path: Path) -> None:
     except StoreError:
         raise
     except OSError as error:
-        raise StoreError(f"cannot open {path}: {error.strerror or error}") from error
+        told = no_resources(error) or error.strerror or "the disk refuses it"
+        raise StoreError(f"cannot open {path}: {told}") from error
     if not start.startswith(_MAGIC):
         raise StoreError(f"cannot open {path}: it is not a netCDF file; name one that fdspec saved")
 

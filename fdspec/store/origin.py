@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 AXES: Final = ("stiffness_ratio", "pretension", "period", "stiffness_scale", "slip_scale")
 """Axes of cubes that stand in the parameters, number by number."""
 
+FORCES: Final = ("slip_force", "kinetic_slip_force")
+"""Coordinates that follow from the pretension."""
+
 _REMEDY: Final = (
     'sweep it as one, or take the parameters out, `del cube.attrs["parameters"]`, and say in the attribute '
     "history what it was made from"
@@ -94,7 +97,7 @@ def with_true_parameters(dataset: xr.Dataset) -> xr.Dataset:
         if name not in dataset.variables:
             raise StoreError(f"the cube has no {name} any more, which its parameters tell of; {_REMEDY}")
         held = np.atleast_1d(dataset[name].values)
-        if _same(held, told):
+        if name in FORCES or _same(held, told):
             continue
         if not _is_part(held, told):
             raise StoreError(
@@ -108,6 +111,9 @@ def with_true_parameters(dataset: xr.Dataset) -> xr.Dataset:
             parameters["records"] = [by_name[one] for one in held.tolist()]
         elif name == "building":
             parameters["buildings"] = {one: parameters["buildings"][one] for one in held.tolist()}
+    for name, told in _axes(parameters):
+        if name in FORCES and not _same(np.atleast_1d(dataset[name].values), told):
+            raise StoreError(f"{name} of the cube does not follow from its parameters; {_REMEDY}")
     if list(records_of(parameters).values()) != np.atleast_1d(dataset["checksum"].values).tolist():
         raise StoreError(f"the cube's checksums are not those of its records; {_REMEDY}")
     known = {name for name in parameters["outputs"] if name in CUBE or name in BUILDING_CUBE}
@@ -135,7 +141,7 @@ def _axes(parameters: Mapping[str, Any]) -> Iterator[tuple[str, NDArray[Any]]]:
 
 def _forces(parameters: Mapping[str, Any]) -> Iterator[tuple[str, NDArray[np.float64]]]:
     pretension = _numbers("pretension", parameters["pretension"])
-    for name, of in (("slip_force", "friction"), ("kinetic_slip_force", "kinetic_friction")):
+    for name, of in zip(FORCES, ("friction", "kinetic_friction"), strict=True):
         coefficient = parameters.get(f"{of}_coefficient")
         if coefficient is None:
             coefficient = parameters["friction_coefficient"]

@@ -99,7 +99,8 @@ def test_every_file_of_a_store(store: Path, right: xr.Dataset) -> None:
 
 def damage_every_file(store: Path, right: xr.Dataset, ways: int) -> None:
     chance = random.Random(1)
-    for file in sorted(path for path in store.rglob("*") if path.is_file()):
+    files = sorted(path for path in store.rglob("*") if path.is_file())
+    for file in files if ways > 1 else chance.sample(files, 40):
         content = file.read_bytes()
         for kind, damaged in chance.sample(sorted(damages(content, chance).items()), ways):
             if damaged == content:
