@@ -438,8 +438,8 @@ def _root(file: Path) -> dict[str, Any] | None:
 
 def _attributes(path: str | os.PathLike[str]) -> dict[str, Any]:
     """Return the attributes of one of fdspec's stores."""
-    found = [one for one in (_root(Path(path, ROOT)), _root(Path(path, COPY))) if one]
-    if not found:
+    found = _root(Path(path, ROOT)) or _root(Path(path, COPY))
+    if found is None:
         if is_ours(path):
             raise DamagedError(
                 f"cannot open {os.fspath(path)}: the store is damaged: zarr.json; start over with --restart "
@@ -448,7 +448,7 @@ def _attributes(path: str | os.PathLike[str]) -> dict[str, Any]:
         raise StoreError(
             f"cannot open {os.fspath(path)}: it is no Zarr store, or one that cannot be read as one"
         )
-    attributes: dict[str, Any] = found[0]["attributes"]
+    attributes: dict[str, Any] = found["attributes"]
     if not {FORMAT, BLOCKS, IDENTITY, ORDER} <= attributes.keys():
         raise StoreError(
             f"cannot open {os.fspath(path)}: it is another program's Zarr store; name one that fdspec made, "

@@ -66,9 +66,10 @@ def test_a_cube_changed_by_hand_is_refused_until_it_says_so(cube: xr.Dataset, tm
     ):
         with pytest.raises(StoreError, match="parameters"):
             fdspec.save(changed, tmp_path / "a.nc")
-        del changed.attrs["parameters"]
-        fdspec.save(changed, tmp_path / "a.nc")
-        xr.testing.assert_identical(fdspec.open(tmp_path / "a.nc"), changed)
+        told = changed.copy()
+        told.attrs = {name: text for name, text in changed.attrs.items() if name != "parameters"}
+        fdspec.save(told, tmp_path / "a.nc")
+        xr.testing.assert_identical(fdspec.open(tmp_path / "a.nc"), told)
 
 
 def test_only_datasets_are_saved(cube: xr.Dataset, tmp_path: Path) -> None:
