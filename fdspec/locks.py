@@ -1,12 +1,12 @@
 """One writer at a time: a lock of the operating system, which ends with the process that holds it.
 
-The lock of ``cube.nc`` is held on a file ``.cube.nc.lock`` beside it, in which the holder writes who it is.  The
-file itself locks nothing: one that a killed process left is taken over without a question.  The system's locks
-are ``flock`` on POSIX, which Linux passes on to an NFS server, and a locked byte on Windows.  A file system that
-has no locks is told of once and gone without.
+The lock of ``cube.nc`` is held on a file ``.cube.nc.lock`` beside it, in which the holder writes who it is.
+The file itself locks nothing: one that a killed process left is taken over without a question.  The system's
+locks are ``flock`` on POSIX, which Linux passes on to an NFS server, and a locked byte on Windows.  On a file
+system that has no locks a warning is logged, and work goes on without.
 
-filelock, the library for this, empties the file of whoever holds it as it tries; here the refused must read in
-it whom they wait for.
+filelock, the library for this, empties the holder's file as it tries to lock it; here whoever is refused must
+read in it whom to wait for.
 """
 
 from __future__ import annotations

@@ -67,8 +67,8 @@ def figures(
     from fdspec.figures import plot_contact_sheet
     from fdspec.report.study_figures import applied_motions, chosen, study_pictures
     from fdspec.runs.study import Study
-    from fdspec.store.suitable import require_cube
     from fdspec.scheduling.progress import progress
+    from fdspec.store.suitable import require_cube
 
     dataset = store.open(cube)
     require_cube(dataset, cube, "the study's figures")

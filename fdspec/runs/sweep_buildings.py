@@ -98,8 +98,8 @@ def sweep_buildings(
 
     Notes
     -----
-    Results are held in memory until the end: a sweep that is stopped loses them.  Of one of more than a minute
-    this is logged as a warning.
+    Results are held in memory until the end: a sweep that is stopped loses them.  Where that is more than a
+    minute of work a warning is logged.
 
     The equations of motion are the study's (19) to (25).  Of the limits that ride along,
     ``elastic_acceleration`` is the frame without braces.  A damper that slides freely is another
@@ -122,8 +122,8 @@ def sweep_buildings(
     tasks = plan(histories, seconds, cells_per_task, "cells_per_task")
     if (expected := sum(seconds) / cores()) > LONG:
         log.warning(
-            "about %.0f min of work are held in memory until the end, and lost when it is stopped; sweep a few "
-            "buildings or records at a time, and save each",
+            "about %.0f min of work are held in memory until the end, and lost when it is stopped; sweep a "
+            "few buildings or records at a time, and save each",
             expected / 60.0,
         )
     parts = fan_out(

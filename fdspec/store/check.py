@@ -54,11 +54,11 @@ class Finding(NamedTuple):
 
 
 def check(path: str | os.PathLike[str]) -> Iterator[Finding]:
-    """Look through what `save` or a sweep left: schema, CF, records, axes, checksums, statuses, numbers, energy.
+    """Look through what `save` or a sweep left: whether it is whole, and can be right.
 
-    A cube, of single storeys or of buildings, and a history are looked at in all; of anything else that `save`
-    wrote, such as a choice, CF and checksums alone.  What is read is read record by record.  Raise StoreError
-    where there is no such file.
+    Of a cube, of single storeys or of buildings, and of a history that is schema, CF, records, axes,
+    checksums, statuses, numbers and energy; of anything else that `save` wrote, such as a choice, CF and
+    checksums alone.  What is read is read record by record.  Raise StoreError where there is no such file.
     """
     try:
         with warnings.catch_warnings():
@@ -92,7 +92,7 @@ P = ParamSpec("P")
 
 
 def _guarded(what: str, look: Callable[P, Finding], *given: P.args, **named: P.kwargs) -> Finding:
-    """Look; what cannot be looked at, for a variable or an attribute that it needs is not as it should be, fails."""
+    """Look; what cannot be looked at, as something that it needs is missing or of another kind, fails."""
     try:
         return look(*given, **named)
     except FdspecError as error:

@@ -1,7 +1,7 @@
 """A Zarr store on disk that is read with care: no damage passes for numbers, and nobody removes it meanwhile.
 
-Zarr takes a chunk that is missing for one of fill values, waits for ever on a pipe in a chunk's place, and says
-of a checksum that fails only that it does.
+Zarr takes a chunk that is missing for one of fill values, waits for ever on a pipe in a chunk's place, and
+says of a checksum that fails only that it does.
 """
 
 from __future__ import annotations

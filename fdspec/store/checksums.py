@@ -1,8 +1,8 @@
 """What a file says of every array in it, so that damage is seen whatever it met.
 
-HDF5 and Zarr guard the chunks of large variables alone.  Here each variable, coordinates included, has a CRC-32C
-over its dims, shape, type, attributes and numbers, and the dataset one over its attributes and the names of its
-variables.  They are those of the dataset in memory: what `open` gives, and not how a file holds it.
+HDF5 and Zarr guard the chunks of large variables alone.  Here each variable, coordinates included, has a
+CRC-32C over its dims, shape, type, attributes and numbers, and the dataset one over its attributes and the
+names of its variables.  They are those of the dataset in memory: what `open` gives, not how a file holds it.
 """
 
 from __future__ import annotations

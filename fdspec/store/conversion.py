@@ -39,7 +39,8 @@ def to_netcdf(store: str | os.PathLike[str], path: str | os.PathLike[str], *, ov
     with cube:
         if left:
             raise StoreError(
-                f"cannot write {os.fspath(path)}: {left} of {count} blocks of {os.fspath(store)} are not computed"
+                f"cannot write {os.fspath(path)}: {left} of {count} blocks of {os.fspath(store)} are "
+                "not computed"
             )
         blocks, _ = chunks.described(store)
         coordinates = layout.to_disk(cube.drop_vars(list(cube.data_vars)))

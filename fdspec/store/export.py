@@ -32,8 +32,8 @@ def export(cube: xr.Dataset, path: str | os.PathLike[str], *, record: str | None
 
     ``.csv``: one row a cell, one column a variable, numbers written so that they read back to the bit. Lines
     that start with ``#`` come first and give each column's unit and meaning; ``pandas.read_csv(path,
-    comment="#")`` and R's ``read.csv(path, comment.char = "#")`` pass over them. Of a history there is a row for
-    each time, with a column for each storey; its changes of phase go into a file of their own beside it,
+    comment="#")`` and R's ``read.csv(path, comment.char = "#")`` pass over them. Of a history there is a row
+    for each time, with a column for each storey; its changes of phase go into a file of their own beside it,
     ``NAME-transitions.csv``.
 
     Parameters

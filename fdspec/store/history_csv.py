@@ -26,8 +26,8 @@ def transitions_file(path: Path) -> Path:
 def write_history(history: xr.Dataset, part: Path, path: Path, heading: list[str]) -> None:
     """Write the course in time to `part`; the changes of phase to the file beside `path`, as a whole.
 
-    What each storey has of its own is a column for each storey, ``drift_1``, ``drift_2`` and so on where there
-    are several; what has one value, or one for each storey, stands in the heading.
+    What each storey has of its own is a column for each storey, ``drift_1``, ``drift_2`` and so on where
+    there are several; what has one value, or one for each storey, stands in the heading.
     """
     names = [str(name) for name, array in history.variables.items() if array.dims[:1] == ("time",)]
     columns: dict[str, Any] = {}

@@ -39,9 +39,9 @@ def save(dataset: xr.Dataset, path: str | os.PathLike[str], *, overwrite: bool =
     """Write a cube or a history to a netCDF-4 file.
 
     The file appears under its name only when it is complete; the same dataset gives the same bytes.  Every
-    variable has a checksum in it, which `open` and ``fdspec check`` compare.  A part of a cube, as ``sel`` and
-    ``isel`` give it, is written with the parameters of that part; a cube joined or reduced by hand is refused
-    as long as it has the parameters of another.
+    variable has a checksum in it, which `open` and ``fdspec check`` compare.  A part of a cube, as ``sel``
+    and ``isel`` give it, is written with the parameters of that part; a cube joined or reduced by hand is
+    refused as long as it has the parameters of another.
     Numbers are compressed with zlib, text is stored as characters, so that ncdump, R, Octave, nco and
     ParaView read it.
 
@@ -57,7 +57,8 @@ def save(dataset: xr.Dataset, path: str | os.PathLike[str], *, overwrite: bool =
     Raises
     ------
     StoreError
-        When the file cannot be written, the dataset holds what netCDF cannot, or its parameters are not its own.
+        When the file cannot be written, the dataset holds what netCDF cannot, or its parameters are not its
+        own.
     InvalidInput
         For anything but a Dataset.
 
@@ -72,14 +73,15 @@ def save(dataset: xr.Dataset, path: str | os.PathLike[str], *, overwrite: bool =
     """
     import xarray as xr
 
-    if not isinstance(dataset, xr.Dataset):
-        hint = ', such as array.to_dataset(name="...")' if isinstance(dataset, xr.DataArray) else ""
-        raise InvalidInput(f"dataset must be an xarray.Dataset{hint}, got {type(dataset).__name__}")
+    given: object = dataset
+    if not isinstance(given, xr.Dataset):
+        hint = ', such as array.to_dataset(name="...")' if isinstance(given, xr.DataArray) else ""
+        raise InvalidInput(f"dataset must be an xarray.Dataset{hint}, got {type(given).__name__}")
     if not is_complete(dataset):
         if os.path.lexists(path):
             raise StoreError(
-                f"cannot write {os.fspath(path)}: cells of the cube were not computed, and a file is there that "
-                "they would replace; give another name, or start the sweep again"
+                f"cannot write {os.fspath(path)}: cells of the cube were not computed, and a file is there "
+                "that they would replace; give another name, or start the sweep again"
             )
         overwrite = False
     with replacing(path, overwrite=overwrite) as part:
@@ -100,7 +102,8 @@ def is_complete(dataset: xr.Dataset) -> bool:
 def with_lists(on_disk: xr.Dataset) -> xr.Dataset:
     """Mark attributes that are lists of one number: netCDF gives these back as a number."""
     marked = on_disk.copy(deep=False)
-    for owner in (marked, *marked.variables.values()):
+    owners: list[xr.Dataset | xr.Variable] = [marked, *marked.variables.values()]
+    for owner in owners:
         lists = [str(key) for key, value in owner.attrs.items() if np.shape(value) == (1,)]
         if lists:
             owner.attrs = {**owner.attrs, LISTS: json.dumps(lists)}
@@ -155,7 +158,7 @@ def open(path: str | os.PathLike[str], *, lazily: bool | None = None) -> xr.Data
             f"cannot open {os.fspath(path)}: not enough memory; open it with lazily=True"
         ) from None
     except Exception as error:
-        # What the libraries raise on damaged files has no type of its own: KeyError, RuntimeError, OSError, ...
+        # What the libraries raise on damaged files has no type of its own: KeyError, RuntimeError, ...
         if told := no_resources(error):
             raise DiskError(f"cannot open {os.fspath(path)}: {told}") from error
         kind, remedy = ("store", "'fdspec check' says where") if store else ("file", "write it again")
@@ -230,7 +233,8 @@ def _read(path: str | os.PathLike[str], lazily: bool) -> xr.Dataset:
 def _without_marks(on_disk: xr.Dataset) -> xr.Dataset:
     """Take out what stands on disk alone, and give lists of one number back as lists."""
     plain = on_disk.copy(deep=False)
-    for owner in (plain, *plain.variables.values()):
+    owners: list[xr.Dataset | xr.Variable] = [plain, *plain.variables.values()]
+    for owner in owners:
         lists = json.loads(owner.attrs.get(LISTS, "[]"))
         drop = {LISTS, FORMAT, checksums.CHECKSUMS}
         if lists or drop & owner.attrs.keys():

@@ -101,7 +101,8 @@ def with_true_parameters(dataset: xr.Dataset) -> xr.Dataset:
             continue
         if not _is_part(held, told):
             raise StoreError(
-                f"{name} of the cube is not that of its parameters: it was joined or changed by hand; {_REMEDY}"
+                f"{name} of the cube is not that of its parameters: it was joined or changed by hand; "
+                f"{_REMEDY}"
             )
         changed = True
         if name in AXES:

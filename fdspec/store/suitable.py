@@ -28,7 +28,8 @@ def require_cube(dataset: xr.Dataset, path: str | os.PathLike[str], what: str) -
         raise InvalidInput(f"{os.fspath(path)} is a history; {needs}")
     if lacking:
         raise InvalidInput(
-            f"{os.fspath(path)} has no dimension {', '.join(lacking)}; {needs} (select with lists to keep dims)"
+            f"{os.fspath(path)} has no dimension {', '.join(lacking)}; {needs} (select with lists to keep "
+            "dims)"
         )
     empty = [dim for dim in STUDY_DIMS if not dataset.sizes[dim]]
     if empty:

@@ -61,8 +61,7 @@ def opened(path: Path) -> xr.Dataset | None:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", UserWarning)
             return fdspec.open(path, lazily=False)
-    except FdspecError as error:
-        assert "\n" not in str(error)
+    except FdspecError:
         return None
 
 

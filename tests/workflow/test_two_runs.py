@@ -51,7 +51,8 @@ def plain(tmp_path_factory: pytest.TempPathFactory) -> xr.Dataset:
     folder = tmp_path_factory.mktemp("plain")
     (folder / "s.toml").write_text(STUDY)
     run = started(folder, "sweep", "s.toml")
-    assert run.communicate() and run.returncode == 0
+    run.communicate()
+    assert run.returncode == 0
     return fdspec.open(folder / "s.nc")
 
 
@@ -92,14 +93,15 @@ def test_a_killed_run_holds_nothing(tmp_path: Path, plain: xr.Dataset) -> None:
     (tmp_path / "s.toml").write_text(STUDY)
     run = started(tmp_path, "sweep", "s.toml", "--resumable")
     until((tmp_path / "s.unfinished.zarr" / "zarr.json").exists)
-    with pytest.raises(BusyError, match=rf"s\.nc is being written by process {run.pid} on '.+', started 2"):
-        with locked(tmp_path / "s.nc"):
-            pass
+    busy = pytest.raises(BusyError, match=rf"s\.nc is being written by process {run.pid} on '.+', started 2")
+    with busy, locked(tmp_path / "s.nc"):
+        pass
     run.kill()
     run.communicate()
     assert lock_file(tmp_path / "s.nc").exists()  # and locks nothing
     again = started(tmp_path, "sweep", "s.toml", "--resumable")
-    assert again.communicate() and again.returncode == 0
+    again.communicate()
+    assert again.returncode == 0
     xr.testing.assert_identical(fdspec.open(tmp_path / "s.nc"), plain)
     assert not lock_file(tmp_path / "s.nc").exists()
 
@@ -131,10 +133,10 @@ def test_a_store_that_was_removed_is_no_fill_value(tmp_path: Path) -> None:
 def test_of_two_files_that_may_not_replace_one_is_kept(tmp_path: Path) -> None:
     cube = xr.Dataset({"a": ("x", [1.0])})
 
-    with pytest.raises(StoreError, match="exists already"):
-        with replacing(tmp_path / "a.nc", overwrite=False) as part:
-            part.write_text("second")
-            fdspec.save(cube, tmp_path / "a.nc", overwrite=False)
+    refused = pytest.raises(StoreError, match="exists already")
+    with refused, replacing(tmp_path / "a.nc", overwrite=False) as part:
+        part.write_text("second")
+        fdspec.save(cube, tmp_path / "a.nc", overwrite=False)
     xr.testing.assert_identical(fdspec.open(tmp_path / "a.nc"), cube)
     assert [path.name for path in tmp_path.iterdir()] == ["a.nc"]
 
