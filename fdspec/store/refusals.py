@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import errno
+import os
 from typing import Final
 
 _WORDS: Final = {
     errno.EMFILE: "too many files are open in this process; close some, or raise the limit (ulimit -n)",
     errno.ENFILE: "too many files are open on this machine",
     errno.ENOMEM: "not enough memory",
-    errno.ENOSPC: "the disk is full",
-    errno.EDQUOT: "the quota of the disk is used up",
-    errno.EROFS: "the file system is read-only",
-    errno.EACCES: "permission denied",
-    errno.EPERM: "permission denied",
+    errno.ENOSPC: os.strerror(errno.ENOSPC),
+    errno.EDQUOT: os.strerror(errno.EDQUOT),
+    errno.EROFS: os.strerror(errno.EROFS),
+    errno.EACCES: os.strerror(errno.EACCES),
+    errno.EPERM: os.strerror(errno.EPERM),
     errno.ENAMETOOLONG: "the name is too long",
     errno.ELOOP: "its symbolic links lead in a circle",
 }
