@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fdspec.errors import DamagedError, InvalidInput
+from fdspec.errors import DamagedError, DiskError, FdspecError, InvalidInput
 from fdspec.measures.statuses import meanings_of
 from fdspec.store.layout import is_text
 from fdspec.store.origin import parameters_of
 from fdspec.store.plausible import wrong_coordinates
+from fdspec.store.refusals import no_resources
 from fdspec.variables import STUDY_DIMS
 
 if TYPE_CHECKING:
@@ -57,6 +58,18 @@ def require_sound(dataset: xr.Dataset, path: str | os.PathLike[str]) -> None:
         codes = np.atleast_1d(variable.attrs.get("flag_values", ()))
         if codes.size != len(str(variable.attrs.get("flag_meanings", "")).split()):
             raise _damaged(path, f"{name} has not as many meanings as codes")
+
+
+def loaded(dataset: xr.Dataset, path: str | os.PathLike[str]) -> xr.Dataset:
+    """Read what was opened lazily; raise DamagedError, or DiskError, where it cannot be read."""
+    try:
+        return dataset.load()
+    except FdspecError:
+        raise
+    except (OSError, RuntimeError, ValueError) as error:
+        if told := no_resources(error):
+            raise DiskError(f"cannot read {os.fspath(path)}: {told}") from error
+        raise _damaged(path, "numbers in it cannot be read") from error
 
 
 def _damaged(path: str | os.PathLike[str], told: str) -> DamagedError:

@@ -17,7 +17,8 @@ import xarray as xr
 
 import fdspec
 from fdspec.cli import main
-from fdspec.errors import FdspecError
+from fdspec.errors import DamagedError, FdspecError
+from fdspec.explore.content import Content
 from fdspec.store.check import check
 from tests.unit.test_sweep import record
 
@@ -319,3 +320,22 @@ def test_attributes_of_a_store_that_are_of_another_kind(store: Path) -> None:
             root.write_text(json.dumps({**told, "attributes": {**told["attributes"], name: value}}))
         assert opened(store) is None
         assert seen(store)
+
+
+def test_content_of_a_cube_that_is_damaged_after_it_was_opened(store: Path, right: xr.Dataset) -> None:
+    file = store.with_name("cube.nc")
+    fdspec.save(right, file)
+    with fdspec.open(file, lazily=True) as cube, fdspec.open(store) as stored:
+        with netCDF4.Dataset(file) as opened:
+            assert opened["peak_acceleration"].filters()["fletcher32"]
+        content = bytearray(file.read_bytes())
+        # Deflated chunks begin with 78 01: all of them are broken, the rest stays.
+        for at in range(len(content) - 1):
+            if content[at : at + 2] == b"\x78\x01":
+                content[at + 2] ^= 0xFF
+        with file.open("r+b") as inside:
+            inside.write(content)
+        shutil.rmtree(store / "peak_acceleration/c")
+        for opened_lazily in (cube, stored):
+            with pytest.raises(DamagedError):
+                Content(opened_lazily, "cube").record(0)
