@@ -107,13 +107,15 @@ def _taken(target: Path, path: str | os.PathLike[str], until: float) -> int | No
     file = lock_file(target)
     while True:
         try:
-            descriptor = os.open(file, os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o666)
+            descriptor = _opened(
+                file, os.O_RDONLY
+            )  # one that may be written keeps a disk from being unmounted
         except OSError as error:
             raise DiskError(
                 f"cannot write {os.fspath(path)}: {error.strerror or error} ({file.name})"
             ) from error
         try:
-            got = _try_lock(descriptor)
+            got = _try_lock(descriptor, file)
             if got is None:
                 log.warning(
                     "%s: this file system has no locks; do not run the same twice at a time", file.parent
@@ -128,7 +130,7 @@ def _taken(target: Path, path: str | os.PathLike[str], until: float) -> int | No
             os.close(descriptor)
             return None
         if got:
-            _write_holder(descriptor)
+            _write_holder(file)
             return descriptor
         os.close(descriptor)
         if time.monotonic() >= until:
@@ -138,7 +140,11 @@ def _taken(target: Path, path: str | os.PathLike[str], until: float) -> int | No
         time.sleep(PAUSE)
 
 
-def _try_lock(descriptor: int) -> bool | None:
+def _opened(file: Path, how: int) -> int:
+    return os.open(file, how | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o666)
+
+
+def _try_lock(descriptor: int, file: Path) -> bool | None:
     """Lock a file; False where another holds it, None where there are no locks."""
     try:
         if os.name == "nt":
@@ -151,6 +157,21 @@ def _try_lock(descriptor: int) -> bool | None:
 
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError as error:
+        if error.errno == errno.EBADF:  # NFS locks only what may be written
+            writable = _opened(file, os.O_RDWR)
+            os.dup2(writable, descriptor, inheritable=False)
+            os.close(writable)
+            return _try_lock_once(descriptor)
+        return None if error.errno in _NO_LOCKS else False
+    return True
+
+
+def _try_lock_once(descriptor: int) -> bool | None:
+    import fcntl
+
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError as error:
         return None if error.errno in _NO_LOCKS else False
     return True
 
@@ -162,12 +183,10 @@ def _is(descriptor: int, file: Path) -> bool:
         return False
 
 
-def _write_holder(descriptor: int) -> None:
+def _write_holder(file: Path) -> None:
     told = {"pid": os.getpid(), "host": socket.gethostname(), "started": _started}
     with suppress(OSError):  # a full disk: the lock holds without a name
-        os.ftruncate(descriptor, 0)
-        os.lseek(descriptor, 0, os.SEEK_SET)
-        os.write(descriptor, json.dumps(told).encode())
+        file.write_text(json.dumps(told), encoding="utf-8")
 
 
 def _holder(file: Path) -> str:

@@ -209,7 +209,7 @@ def write(
                 # The status says that the others are there: also after the machine has stopped.
                 for other in mine:
                     if other.name != STATUS:
-                        _sync(chunk_path(path, blocks, number, other))
+                        _sync_chunk(path, chunk_path(path, blocks, number, other))
             array: Any = group[variable.name]
             array[blocks.region(number, variable)] = values[variable.name]
 
@@ -383,6 +383,14 @@ def _sync(file: Path) -> None:
         os.fsync(descriptor)
     finally:
         os.close(descriptor)
+
+
+def _sync_chunk(path: str | os.PathLike[str], chunk: Path) -> None:
+    try:
+        _sync(chunk)
+    except FileNotFoundError:
+        still_there(path)
+        raise
 
 
 def _checksum(file: Path) -> str | None:
