@@ -80,6 +80,9 @@ STATUSES: Final = MappingProxyType(
 )
 """Status code -> meaning, as the kernels return them."""
 
+NOT_COMPUTED: Final = -1
+"""Status of a cell that no sweep has come to yet."""
+
 
 def motion_variables(dims: tuple[str, ...]) -> tuple[Variable, ...]:
     """Return what is told of a ground motion: over ("record",) in a cube, over () in a history."""

@@ -41,8 +41,10 @@ def claims(cube: str, factor: float, markdown: bool) -> None:
     """
     from fdspec import store
     from fdspec.measures.claims import study_claims
+    from fdspec.store.suitable import require_cube
 
     dataset = store.open(cube)
+    require_cube(dataset, cube, "the study's claims")
     found = study_claims(dataset, normal_force_factor=factor)
     bolt = study_claims(dataset, normal_force_factor=BOLT_FACTOR * factor)
     blocks = [_shares(found, markdown=markdown), _sentences(found), _verdicts(found, bolt, markdown=markdown)]

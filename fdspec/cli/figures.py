@@ -68,8 +68,10 @@ def figures(
     from fdspec.report.study_figures import applied_motions, chosen, study_pictures
     from fdspec.runs.study import Study
     from fdspec.scheduling.progress import progress
+    from fdspec.store.suitable import require_cube
 
     dataset = store.open(cube)
+    require_cube(dataset, cube, "the study's figures")
     given = Study.read(study_file).motions() if study_file else ()
     pictures = chosen(study_pictures(dataset, given), _numbers(only))
     if listed:
