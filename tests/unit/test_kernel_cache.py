@@ -13,15 +13,15 @@ from pathlib import Path
 import pytest
 from numba import config, float64
 
-from fdspec import jit
-from fdspec.kernel_cache import cache_folder, compiling, not_safe, prune
+from fdspec.compiler import options
+from fdspec.compiler.cache import cache_folder, compiling, not_safe, prune
 
 KEY = "0123456789abcdef"
 
 TEN = """
 import sys, time
 from pathlib import Path
-from fdspec.kernel_cache import compiling
+from fdspec.compiler.cache import compiling
 
 folder, log = Path(sys.argv[1]), Path(sys.argv[2])
 with compiling(folder, "kernel"):
@@ -77,7 +77,7 @@ def test_the_lock_of_a_killed_process_is_free(tmp_path: Path) -> None:
     script = f"""
 import os, signal
 from pathlib import Path
-from fdspec.kernel_cache import compiling
+from fdspec.compiler.cache import compiling
 with compiling(Path({str(tmp_path)!r}), "kernel"):
     os.kill(os.getpid(), signal.SIGKILL)
 """
@@ -225,8 +225,8 @@ def doubled(x: float) -> float:
 
 def compiled_anew(cache: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[float, int]:
     """Compile through this cache or load from it; give what the kernel computes, and how often found."""
-    monkeypatch.setattr(jit, "CACHE", cache)
-    kernel = jit.entry(float64(float64))(doubled)
+    monkeypatch.setattr(options, "CACHE", cache)
+    kernel = options.entry(float64(float64))(doubled)
     return kernel(21.0), sum(kernel.stats.cache_hits.values())
 
 
