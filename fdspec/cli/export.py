@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.output import force_option, free
 from fdspec.errors import InvalidInput
 
@@ -42,7 +43,7 @@ def export(cube: str, output: str | None, page: bool, record: str | None, force:
     else:
         path = free(output, force=force, suffixes=(".nc", ".csv", *PAGES))
         store.export(store.open(cube), path, record=record)
-    click.echo(f"{path}")
+    echo(f"{path}")
 
 
 def _write_page(cube: str, path: Path, record: str | None) -> None:

@@ -14,6 +14,7 @@ from typing import Final, NoReturn
 import click
 
 from fdspec.cli.commands import fdspec
+from fdspec.cli.echo import echo
 from fdspec.errors import DiskError, FdspecError, InvalidInput, StoreError
 from fdspec.stopping import STOPPING, Stopped, stopped_by_signals
 
@@ -79,19 +80,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
             cause = error if isinstance(error, Stopped) else error.__cause__
             if isinstance(cause, Stopped):
                 number = signal.Signals(cause.args[0])
-                click.echo(f"fdspec: stopped by {number.name}", err=True)
+                echo(f"fdspec: stopped by {number.name}", err=True)
                 return SIGNALLED + number
-            click.echo("fdspec: interrupted", err=True)
+            echo("fdspec: interrupted", err=True)
             return INTERRUPTED
     return code if isinstance(code, int) else DONE
 
 
 def _fail(text: str, code: int) -> int:
     for line in text.splitlines():
-        click.echo(f"fdspec: error: {line}", err=True)
+        echo(f"fdspec: error: {line}", err=True)
     return code
 
 
 def _show_warning(message: Warning | str, *_: object, **__: object) -> None:
     text = " ".join(str(message).split())
-    click.echo(f"fdspec: warning: {text}", err=True)
+    echo(f"fdspec: warning: {text}", err=True)

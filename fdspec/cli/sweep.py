@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.held import holds
 from fdspec.cli.output import force_option, free
 from fdspec.cli.record_options import file_options, named_records
@@ -98,18 +99,18 @@ def sweep(
         study, scaled=study.scaled and not raw, certify=study.certify and not no_certify
     )
     if print_study:
-        click.echo(study.to_toml(), nl=False)
+        echo(study.to_toml(), nl=False)
         return
     if sum(one is not None for one in (threads, workers, scheduler)) > 1:
         raise click.UsageError("--threads, --workers and --scheduler exclude each other")
     path = Path(output or ("study.nc" if study_file is None else f"{Path(study_file).stem}.nc"))
     if path.is_file() and not force and holds(path, study, study.motions()):
-        click.echo(f"{path} holds this study already: nothing to compute; --force computes it again")
+        echo(f"{path} holds this study already: nothing to compute; --force computes it again")
         return
     if path.suffix != STORE_SUFFIX:
         free(path, force=force)
     if dry_run:
-        click.echo(_plan(study, path))
+        echo(_plan(study, path))
         return
     motions = study.motions()
     expected = estimate(motions, study.grid, certify=study.certify)
@@ -139,8 +140,8 @@ def _finish(cube: xr.Dataset, path: Path, store: Path | None, force: bool, start
     elif store != path:
         to_netcdf(store, path, overwrite=force)
     told, failed = statuses(cube)
-    click.echo(summary(cube, path, time.perf_counter() - started))
-    click.echo(told)
+    echo(summary(cube, path, time.perf_counter() - started))
+    echo(told)
     if failed:
         warnings.warn(f"{failed} histories did not end well; their cells are listed above", stacklevel=1)
     if store is not None and store != path:

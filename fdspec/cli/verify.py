@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final, Self
 
 import click
 
+from fdspec.cli.echo import echo, status
 from fdspec.cli.table import counted, seconds, table
 from fdspec.errors import FdspecError
 
@@ -43,11 +44,11 @@ def verify(full: bool, only: tuple[str, ...], form: str | None) -> None:
     elapsed = perf_counter() - began
     failed = [row for row in rows if not row.passed]
     if form == "json":
-        click.echo(_as_json(rows, elapsed))
+        echo(_as_json(rows, elapsed))
     else:
-        click.echo(_as_markdown(rows) if form == "markdown" else table(HEAD, map(_cells, rows), left=LEFT))
+        echo(_as_markdown(rows) if form == "markdown" else table(HEAD, map(_cells, rows), left=LEFT))
         said = f"{len(failed)} failed" if failed else "all passed"
-        click.echo(f"\n{counted(len(rows), 'row')}, {said}, in {seconds(elapsed)}")
+        echo(f"\n{counted(len(rows), 'row')}, {said}, in {seconds(elapsed)}")
     if failed:
         raise FdspecError(f"{counted(len(failed), 'row')} of {len(rows)} failed; first: {failed[0].case}")
 
@@ -60,11 +61,11 @@ class _Telling:
 
     def __call__(self, row: Row) -> None:
         if sys.stderr.isatty():
-            click.echo(f"\r\033[K{row.case:.100}", err=True, nl=False)
+            status(f"{row.case:.100}")
 
     def __exit__(self, *_: object) -> None:
         if sys.stderr.isatty():
-            click.echo("\r\033[K", err=True, nl=False)
+            status("")
 
 
 def _cells(row: Row) -> list[str]:
