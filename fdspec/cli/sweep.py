@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 import time
 import warnings
 from pathlib import Path
@@ -150,24 +149,21 @@ def _finish(cube: xr.Dataset, path: Path, store: Path | None, force: bool, start
 
 def _plan(study: Study, path: Path) -> str:
     """Say what a run would do."""
-    import numpy as np
-
+    from fdspec.runs.bounds import seconds_of_sweep
     from fdspec.runs.cost import measured
-    from fdspec.runs.sweep import OUTPUTS
+    from fdspec.runs.sweep import OUTPUTS, bytes_of, refuse_endless
     from fdspec.scheduling.threads import cores
-    from fdspec.variables import CUBE
 
     motions = study.motions()
+    outputs = study.outputs or OUTPUTS
+    rough = sum(seconds_of_sweep(study.grid, motions, study.certify))
+    store = store_of(path, resumable=None, expected=rough / cores())
+    refuse_endless(motions, study.grid, outputs, rough, store)
     histories = len(motions) * study.grid.size
     cost = measured(study.grid, motions, study.certify)
     total, count = cost.of_sweep(study.grid, motions), cores()
     n_sr, n_f, n_t = study.grid.shape
     samples = sum(motion.n for motion in motions)
-    lengths = {"record": len(motions), "stiffness_ratio": n_sr, "pretension": n_f, "period": n_t}
-    bytes_of = {
-        name: math.prod(lengths[dim] for dim in CUBE[name].dims) * np.dtype(CUBE[name].dtype).itemsize
-        for name in study.outputs or OUTPUTS
-    }
     return "\n".join(
         (
             f"records           {', '.join(motion.name for motion in motions)} ({grouped(samples)} samples)",
@@ -178,7 +174,7 @@ def _plan(study: Study, path: Path) -> str:
             f"measured cost     {1e6 * total / histories:.3g} us of core time a history",
             f"transitions       {cost.transitions_per_sample * samples / len(motions):.0f} a history",
             f"expected time     {seconds(total)} of core time, {seconds(total / count)} on {count} cores",
-            f"expected size     at most {size(sum(bytes_of.values()))}",
+            f"expected size     at most {size(sum(bytes_of(motions, study.grid, outputs).values()))}",
             f"would write       {path}",
         )
     )

@@ -14,6 +14,7 @@ from fdspec.errors import IntegrationError, InvalidInput
 from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
+from fdspec.runs.bounds import HISTORY_HOURS, refuse_large, refuse_long, seconds_of_history
 from fdspec.store import provenance
 from fdspec.variables import HISTORY, STATUSES, describe
 
@@ -82,6 +83,12 @@ def simulate(
     if not isinstance(motion, GroundMotion):
         raise InvalidInput(f"motion must be a GroundMotion, got {type(motion).__name__}")
     span = _span(motion, dt_out, free_vibration)
+    samples = float(motion.n + span.free_steps)
+    traces = (13.0 * building.n_storeys + 6.0) * span.outputs
+    refuse_large(8.0 * (samples + 2.0 * traces), f"a history of {samples:.4g} samples")
+    if method == EXACT:
+        seconds = seconds_of_history(building, motion.dt, samples)
+        refuse_long(seconds, HISTORY_HOURS, f"the history of {samples:.4g} samples")
     start = np.stack(
         [
             _initial("initial_displacement", initial_displacement, building),

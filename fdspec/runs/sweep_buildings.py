@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Final
@@ -13,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from fdspec.model.building import Frame
 from fdspec.model.building_grid import BuildingGrid, Buildings
 from fdspec.model.motion import GroundMotion
+from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_history
 from fdspec.runs.cube import assemble, chosen, named
 from fdspec.scheduling.threads import Task, fan_out, plan
 from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS
@@ -22,9 +24,6 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
-
-SECONDS_PER_SAMPLE: Final = 0.8e-6
-"""Core time of one history for each sample of its record and N^1.5, roughly; for plans, not for results."""
 
 LIMITS: Final = ("elastic_acceleration", "braced_acceleration")
 RESPONSES: Final = tuple(v.name for v in BUILDING_CUBE.values() if v.dims[:4] == BUILDING_DIMS)
@@ -109,7 +108,15 @@ def sweep_buildings(
     motions = named(motions)
     wanted = chosen(outputs, OUTPUTS, certify)
     histories = _ends(grid)[-1 if set(LIMITS) & set(wanted) else 0]
-    seconds = [histories * motion.n * SECONDS_PER_SAMPLE * grid.n_storeys**1.5 for motion in motions]
+    what = f"a sweep of {len(motions) * histories:.4g} histories"
+    refuse_large(8.0 * len(motions) * histories * grid.n_storeys * 2 * len(wanted), what)
+    seconds = [
+        histories
+        * max(seconds_of_history(building, motion.dt, motion.n) for building in grid.buildings)
+        * math.sqrt(max(1.0, float(grid.stiffness_scale.mean())))
+        for motion in motions
+    ]
+    refuse_long(sum(seconds), SWEEP_HOURS, what)
     tasks = plan(histories, seconds, cells_per_task, "cells_per_task")
     parts = fan_out(
         partial(_run, grid, certify),
