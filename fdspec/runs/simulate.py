@@ -15,6 +15,7 @@ from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
 from fdspec.runs.bounds import HISTORY_HOURS, refuse_large, refuse_long, seconds_of_history
+from fdspec.runs.plausible import warn_of_units
 from fdspec.store import provenance
 from fdspec.variables import HISTORY, STATUSES, describe
 
@@ -89,6 +90,9 @@ def simulate(
     if method == EXACT:
         seconds = seconds_of_history(building, motion.dt, samples)
         refuse_long(seconds, HISTORY_HOURS, f"the history of {samples:.4g} samples")
+    warn_of_units(
+        [motion], period=building.bare_periods, slip_force=building.slip_force, floor_mass=building.floor_mass
+    )
     start = np.stack(
         [
             _initial("initial_displacement", initial_displacement, building),

@@ -22,6 +22,7 @@ from fdspec.model.grid import Grid
 from fdspec.model.motion import GroundMotion
 from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_sweep
 from fdspec.runs.cube import assemble, chosen, named
+from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.threads import Task, cores, fan_out, plan
 from fdspec.variables import CUBE, STUDY_DIMS
 
@@ -162,6 +163,7 @@ def sweep(
     n_sr, n_f, n_t = grid.shape
     seconds = seconds_of_sweep(grid, motions, certify)
     refuse_endless(motions, grid, wanted, sum(seconds), store)
+    warn_of_units(motions, period=grid.period, slip_force=grid.slip_force, floor_mass=grid.floor_mass)
     run = partial(_run_columns, grid, certify, bool(strain), other)
     fan = partial(
         fan_out,

@@ -16,6 +16,7 @@ from fdspec.model.building_grid import BuildingGrid, Buildings
 from fdspec.model.motion import GroundMotion
 from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_history
 from fdspec.runs.cube import assemble, chosen, named
+from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.threads import Task, fan_out, plan
 from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS
 
@@ -117,6 +118,12 @@ def sweep_buildings(
         for motion in motions
     ]
     refuse_long(sum(seconds), SWEEP_HOURS, what)
+    warn_of_units(
+        motions,
+        period=[building.bare_periods[0] for building in grid.buildings],
+        slip_force=grid.slip_force,
+        floor_mass=[building.floor_mass.min() for building in grid.buildings],
+    )
     tasks = plan(histories, seconds, cells_per_task, "cells_per_task")
     parts = fan_out(
         partial(_run, grid, certify),
