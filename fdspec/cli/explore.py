@@ -10,6 +10,7 @@ import click
 
 from fdspec.cli.echo import echo
 from fdspec.errors import InvalidInput
+from fdspec.stopping import Stopped
 
 
 @click.command()
@@ -64,6 +65,8 @@ def explore(cube: str, records: tuple[str, ...], host: str, port: int, no_browse
 
     try:
         serve(content, rerun, host=host, port=port, ready=ready)
+    except Stopped:
+        raise
     except KeyboardInterrupt:  # the way to end it
         echo()
 

@@ -36,11 +36,11 @@ def run() -> NoReturn:
     if code > SIGNALLED:
         for number in STOPPING:
             signal.signal(number, signal.SIG_IGN)
-        if any(thread.name.startswith("fdspec") for thread in threading.enumerate()):
-            for stream in (sys.stdout, sys.stderr):
-                with suppress(OSError, ValueError):
-                    stream.flush()
-            os._exit(code)
+    if any(thread.name.startswith("fdspec") for thread in threading.enumerate()):
+        for stream in (sys.stdout, sys.stderr):
+            with suppress(OSError, ValueError):
+                stream.flush()
+        os._exit(code)
     sys.exit(code)
 
 

@@ -18,11 +18,13 @@ import os
 import re
 import shutil
 import stat
+import sys
 import tempfile
 import time
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from functools import cache
 from pathlib import Path
 from typing import IO, Final
 
@@ -64,6 +66,18 @@ def tell(reason: str) -> None:
             f"compiled kernels cannot be kept ({reason}): every start will compile them, for about half a "
             "minute; FDSPEC_CACHE_DIR can name a folder that only you can write in",
             stacklevel=3,
+        )
+
+
+@cache
+def say_once() -> None:
+    """Tell whoever waits at a terminal or a notebook that kernels are compiled."""
+    notebook = "ipykernel" in sys.modules
+    if multiprocessing.parent_process() is None and (sys.stderr.isatty() or notebook):
+        print(  # noqa: T201
+            "fdspec: compiling kernels, once for this version and processor: about half a minute",
+            file=sys.stderr,
+            flush=True,
         )
 
 
@@ -109,6 +123,7 @@ def compiling(folder: Path | None, kernel: str) -> Iterator[Path | None]:
         if first:
             _clear(mine, listed)
             mine.mkdir(mode=0o700)
+            say_once()
         yield mine
         if first:
             with suppress(OSError):

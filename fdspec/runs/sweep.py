@@ -23,6 +23,7 @@ from fdspec.model.motion import GroundMotion
 from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_sweep
 from fdspec.runs.cube import assemble, chosen, named
 from fdspec.runs.plausible import warn_of_units
+from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.threads import Task, cores, fan_out, plan
 from fdspec.variables import CUBE, STUDY_DIMS
 
@@ -81,7 +82,7 @@ def sweep(
     client: Client | None = None,
     store: str | os.PathLike[str] | None = None,
     restart: bool = False,
-    progress: bool = False,
+    progress: Shown = False,
 ) -> xr.Dataset:
     """Compute the cube: peaks of a single-storey frame over record, stiffness ratio, pretension and period.
 
@@ -121,8 +122,8 @@ def sweep(
         memory holds.  When it is there, from a sweep that was stopped, only what is missing is computed.
     restart : bool
         Whether a store that is there is removed first.
-    progress : bool
-        Show a bar on stderr where it is a terminal.
+    progress : bool or callable
+        Show a bar on stderr where it is a terminal or a notebook's; or call this with (done, total).
 
     Returns
     -------

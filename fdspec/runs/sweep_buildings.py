@@ -17,6 +17,7 @@ from fdspec.model.motion import GroundMotion
 from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_history
 from fdspec.runs.cube import assemble, chosen, named
 from fdspec.runs.plausible import warn_of_units
+from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.threads import Task, fan_out, plan
 from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS
 
@@ -43,7 +44,7 @@ def sweep_buildings(
     scheduler: str = "threads",
     cells_per_task: int | None = None,
     client: Client | None = None,
-    progress: bool = False,
+    progress: Shown = False,
 ) -> xr.Dataset:
     """Compute the cube of buildings: peaks of every storey over record, building and two factors on dampers.
 
@@ -76,8 +77,8 @@ def sweep_buildings(
         Histories of one task; about 0.2 s of work unless given.  No result depends on it.
     client : distributed.Client, optional
         Any cluster of dask.distributed, in place of threads here.
-    progress : bool
-        Show a bar on stderr where it is a terminal.
+    progress : bool or callable
+        Show a bar on stderr where it is a terminal or a notebook's; or call this with (done, total).
 
     Returns
     -------

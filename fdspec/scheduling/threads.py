@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from fdspec.errors import InvalidInput
 from fdspec.model.motion import GroundMotion
+from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.progress import progress as progress_bar
 from fdspec.stopping import STOPPING
 
@@ -84,7 +85,7 @@ def fan_out(
     warm: Callable[[], None],
     workers: int | None,
     scheduler: str,
-    progress: bool,
+    progress: Shown,
     client: Client | None = None,
     finished: int = 0,
     what: str = "histories",
@@ -114,6 +115,7 @@ def fan_out(
     with progress_bar(total, what, shown=progress, finished=finished) as done, _reported(done):
         with interrupted_at_last():
             warm()
+        done(0)
         with _pool(scheduler, workers or cores()) as pool:
             parts = dask.compute(*graph, scheduler=scheduler, num_workers=workers or cores(), **pool)
     return [part.result for part in parts]
