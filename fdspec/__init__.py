@@ -33,9 +33,9 @@ if TYPE_CHECKING:
     from fdspec.runs.study import Study as Study
     from fdspec.runs.sweep import sweep as sweep
     from fdspec.runs.sweep_buildings import sweep_buildings as sweep_buildings
-    from fdspec.store import export as export
-    from fdspec.store import open as open  # noqa: A004
-    from fdspec.store import save as save
+    from fdspec.store.export import export as export
+    from fdspec.store.netcdf import open as open  # noqa: A004
+    from fdspec.store.netcdf import save as save
 
 _NAMES = {
     "choice": ("best_pretension", "choose", "optimise"),

@@ -6,6 +6,7 @@ Estimates of time are rough, within a factor of five; the limit is far above wha
 
 from __future__ import annotations
 
+import math
 import os
 import shutil
 from collections.abc import Sequence
@@ -75,7 +76,7 @@ def seconds_of_history(building: Building, dt: float, samples: float) -> float:
     steps = max(1.0, fastest * dt)
     if building.n_storeys == 1:
         return samples * (PER_SAMPLE + PER_BRACE_STEP * steps)
-    return samples * steps * PER_STOREY * float(building.n_storeys) ** 1.5
+    return samples * steps * PER_STOREY * math.pow(building.n_storeys, 1.5)
 
 
 def refuse_long(seconds: float, default_hours: float, what: str) -> None:
