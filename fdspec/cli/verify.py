@@ -40,7 +40,7 @@ def verify(full: bool, only: tuple[str, ...], form: str | None) -> None:
 
     began = perf_counter()
     with _Telling() as tell:
-        rows = run(only or None, full=full, on_row=tell)
+        rows = run(only or None, full=full, on_family=tell.waits, on_row=tell)
     elapsed = perf_counter() - began
     failed = [row for row in rows if not row.passed]
     if form == "json":
@@ -54,18 +54,28 @@ def verify(full: bool, only: tuple[str, ...], form: str | None) -> None:
 
 
 class _Telling:
-    """Say on a terminal's stderr which case was the last, and take it back at the end."""
+    """Say on a terminal's stderr what is waited for and which case was the last; take it back at the end."""
+
+    family = ""
 
     def __enter__(self) -> Self:
         return self
 
+    def waits(self, family: str) -> None:
+        """Say which family of cases is being computed."""
+        self.family = family
+        self._say("")
+
     def __call__(self, row: Row) -> None:
-        if sys.stderr.isatty():
-            status(f"{row.case:.100}")
+        self._say(f", after {row.case}")
 
     def __exit__(self, *_: object) -> None:
         if sys.stderr.isatty():
             status("")
+
+    def _say(self, more: str) -> None:
+        if sys.stderr.isatty():
+            status(f"{f'computing {self.family}{more}':.100}")
 
 
 def _cells(row: Row) -> list[str]:
