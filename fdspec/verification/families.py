@@ -52,7 +52,7 @@ def verify(
     """Run the verification cases and return their rows.
 
     families: names of FAMILIES, all unless given; full: with the slow cases; on_family: told the name of each
-    family before it is run; on_row: told of each row as it is there.  A case that raises one of fdspec's errors
+    family before it is run; on_row: told of each row as it is there.  A case that raises an error of fdspec's
     is a row that fails, with the error as its quantity.
     """
     known = {family.name: family for family in FAMILIES}
