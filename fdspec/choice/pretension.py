@@ -20,6 +20,7 @@ from fdspec.measures.indices import Weights, needs_of, weights_of
 from fdspec.model.building import Building
 from fdspec.model.grid import Grid
 from fdspec.model.motion import GroundMotion
+from fdspec.runs.bounds import SWEEP_HOURS, refuse_long
 from fdspec.runs.cube import assemble, named
 from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.progress import progress as progress_bar
@@ -218,6 +219,7 @@ def _of_records(
     """Search each column under each record by itself: Found (records, columns)."""
     n_sr, _, n_t = grid.shape
     seconds = [motion.n * n_sr * n_t * SEARCH_SECONDS_PER_SAMPLE for motion in motions]
+    refuse_long(sum(seconds), SWEEP_HOURS, f"a search for {n_sr * n_t:.4g} frames")
     tasks = plan(n_sr * n_t, seconds, None, "columns")
     parts = fan_out(
         partial(_search_columns, grid, index, band),

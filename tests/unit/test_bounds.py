@@ -140,3 +140,10 @@ def test_estimates_grow_with_the_steps() -> None:
 def test_the_system_tells_its_free_memory() -> None:
     free = memory_free()
     assert free is None or 1e7 < free < 1e15
+
+
+def test_a_search_too() -> None:
+    with pytest.raises(
+        InvalidInput, match=r"a search for 1e\+07 frames would take .* over the limit of 1000"
+    ):
+        fdspec.best_pretension(motion(40_000), period=np.linspace(0.1, 3.0, 10_000_000), stiffness_ratio=4)
