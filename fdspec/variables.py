@@ -116,7 +116,10 @@ def response_variables(grid: tuple[str, ...], storey: tuple[str, ...] = ()) -> t
         Variable("peak_velocity", each, "m/s", "peak velocity of the floor relative to the ground"),
         Variable("peak_base_shear", grid, "N", "peak shear force on the ground, frame and brace together"),
         Variable(
-            "residual_displacement", each, "m", "final displacement of the floor relative to the ground"
+            "residual_displacement",
+            each,
+            "m",
+            "displacement of the floor relative to the ground at the record's end",
         ),
         Variable("slip_travel", each, "m", "total distance slipped in the damper"),
         Variable("transitions", grid, "1", f"number of changes of phase of {dampers}", "int64"),
@@ -288,7 +291,10 @@ HISTORY: Final[Registry] = registry_of(
         Variable("peak_storey_shear", _STOREY, "N", "peak shear force of frame and brace together"),
         Variable("peak_base_shear", (), "N", "peak shear force on the ground, frame and brace together"),
         Variable(
-            "residual_displacement", _STOREY, "m", "final displacement of the floor relative to the ground"
+            "residual_displacement",
+            _STOREY,
+            "m",
+            "displacement of the floor relative to the ground at the history's end",
         ),
         Variable(
             "residual_drift", _STOREY, "m", "final displacement of the floor relative to the floor below"

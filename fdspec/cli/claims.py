@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.table import table
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ def claims(cube: str, factor: float, markdown: bool) -> None:
     blocks = [_shares(found, markdown=markdown), _sentences(found), _verdicts(found, bolt, markdown=markdown)]
     if comment := dataset.attrs.get("comment"):
         blocks.append(textwrap.fill(str(comment), WIDTH))
-    click.echo("\n\n".join(blocks))
+    echo("\n\n".join(blocks))
 
 
 def _shares(found: xr.Dataset, *, markdown: bool) -> str:

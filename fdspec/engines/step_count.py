@@ -12,16 +12,15 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from fdspec.engines.many_storeys import rates_of
 from fdspec.errors import InvalidInput
+from fdspec.kernels.frame.history import RADIANS as FRAME_RADIANS
 from fdspec.model.building import Building
 
 FloatArray = NDArray[np.float64]
 
 RADIANS: Final = 1.0
 """Longest phase of a step or piece: that of the single-storey kernels."""
-
-FRAME_RADIANS: Final = 2.5
-"""Longest phase of a step: that of the kernels for several storeys."""
 
 MAX_STEPS: Final = 1e9
 """Steps of one history above which it is refused: minutes of one core."""
@@ -86,8 +85,8 @@ def refuse_endless(building: Building, dt: float, record_steps: int, limit: floa
     if building.n_storeys == 1:
         steps = float(steps_of_storeys(np.array(building.storey), dt, record_steps))
     else:
-        rate = max(float(_frame_rate(building)), float(brace.max()))
-        steps = record_steps * max(1.0, np.ceil(rate * dt / FRAME_RADIANS))
+        fastest = rates_of(building.frame).max()
+        steps = record_steps * max(1.0, np.ceil(fastest * dt / FRAME_RADIANS))
     if steps <= most:
         return
     i = int(np.argmax(brace))

@@ -15,6 +15,8 @@ from fdspec.errors import IntegrationError, InvalidInput
 from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
+from fdspec.runs.bounds import HISTORY_HOURS, refuse_large, refuse_long, seconds_of_history
+from fdspec.runs.plausible import warn_of_units
 from fdspec.store import provenance
 from fdspec.variables import HISTORY, STATUSES, describe
 
@@ -90,6 +92,15 @@ def simulate(
     if not isinstance(motion, GroundMotion):
         raise InvalidInput(f"motion must be a GroundMotion, got {type(motion).__name__}")
     span = _span(motion, dt_out, free_vibration)
+    samples = float(motion.n + span.free_steps)
+    traces = (13.0 * building.n_storeys + 6.0) * span.outputs
+    refuse_large(8.0 * (samples + 2.0 * traces), f"a history of {samples:.4g} samples")
+    if method == EXACT:
+        seconds = seconds_of_history(building, motion.dt, samples)
+        refuse_long(seconds, HISTORY_HOURS, f"the history of {samples:.4g} samples")
+    warn_of_units(
+        [motion], period=building.bare_periods, slip_force=building.slip_force, floor_mass=building.floor_mass
+    )
     start = np.stack(
         [
             _initial("initial_displacement", initial_displacement, building),
@@ -156,7 +167,8 @@ def _initial(name: str, given: ArrayLike | None, building: Building) -> FloatArr
 def _ground_at(motion: GroundMotion, time: FloatArray, dt_out: float) -> FloatArray:
     """Ground acceleration at outputs, of which rounding may put one just behind the record's last sample."""
     shaking = time <= motion.time[-1] + ROUNDING * dt_out
-    return np.where(shaking, np.interp(time, motion.time, motion.acceleration), 0.0)
+    found = np.where(shaking, np.interp(time, motion.time, motion.acceleration), 0.0)
+    return np.asarray(found, dtype=np.float64)
 
 
 def _dataset(
@@ -167,7 +179,7 @@ def _dataset(
     course: Course,
     method: dict[str, object],
 ) -> xr.Dataset:
-    time = np.arange(span.outputs) * span.dt_out
+    time = np.arange(span.outputs, dtype=np.float64) * span.dt_out
     below = np.zeros_like(course.displacement)
     below[:, 1:] = course.displacement[:, :-1]
     drift = course.displacement - below

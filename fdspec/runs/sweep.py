@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import os
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -18,7 +20,10 @@ from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.methods.batch import integrate_by_method
 from fdspec.model.grid import Grid
 from fdspec.model.motion import GroundMotion
+from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_sweep
 from fdspec.runs.cube import assemble, chosen, named
+from fdspec.runs.plausible import warn_of_units
+from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.threads import Task, cores, fan_out, plan
 from fdspec.variables import CUBE, STUDY_DIMS
 
@@ -86,7 +91,7 @@ def sweep(
     client: Client | None = None,
     store: str | os.PathLike[str] | None = None,
     restart: bool = False,
-    progress: bool = False,
+    progress: Shown = False,
 ) -> xr.Dataset:
     """Compute the cube: peaks of a single-storey frame over record, stiffness ratio, pretension and period.
 
@@ -126,8 +131,8 @@ def sweep(
         memory holds.  When it is there, from a sweep that was stopped, only what is missing is computed.
     restart : bool
         Whether a store that is there is removed first.
-    progress : bool
-        Show a bar on stderr where it is a terminal.
+    progress : bool or callable
+        Show a bar on stderr where it is a terminal or a notebook's; or call this with (done, total).
 
     Returns
     -------
@@ -166,7 +171,9 @@ def sweep(
     if strain and other is not None:
         raise InvalidInput(f"outputs {', '.join(strain)} need method 'exact', got {other.name!r}")
     n_sr, n_f, n_t = grid.shape
-    seconds = [_core_seconds(motion.n, grid, certify) for motion in motions]
+    seconds = seconds_of_sweep(grid, motions, certify)
+    refuse_endless(motions, grid, wanted, sum(seconds), store)
+    warn_of_units(motions, period=grid.period, slip_force=grid.slip_force, floor_mass=grid.floor_mass)
     run = partial(_run_columns, grid, certify, bool(strain), other)
     fan = partial(
         fan_out,
@@ -260,6 +267,33 @@ def _shares(size: int, count: int) -> IntArray:
     return ((np.arange(count) + 0.5) * size / count).astype(np.int64)
 
 
+def bytes_of(motions: Sequence[GroundMotion], grid: Grid, outputs: Iterable[str]) -> dict[str, int]:
+    """Bytes of each variable of the cube."""
+    n_sr, n_f, n_t = grid.shape
+    lengths = {"record": len(motions), "stiffness_ratio": n_sr, "pretension": n_f, "period": n_t}
+    return {
+        name: math.prod(lengths[dim] for dim in CUBE[name].dims) * np.dtype(CUBE[name].dtype).itemsize
+        for name in outputs
+    }
+
+
+def refuse_endless(
+    motions: Sequence[GroundMotion],
+    grid: Grid,
+    outputs: Iterable[str],
+    seconds: float,
+    store: str | os.PathLike[str] | None,
+) -> None:
+    """Raise InvalidInput for a sweep that this machine cannot hold or that takes longer than the limit."""
+    what = f"a sweep of {len(motions) * grid.size:.4g} histories"
+    size = float(sum(bytes_of(motions, grid, outputs).values()))
+    if store is None:
+        refuse_large(2.0 * size, what)  # once as the tasks return it, once as the cube
+    elif not Path(store).exists():
+        refuse_large(size, what, folder=Path(store).absolute().parent)
+    refuse_long(seconds, SWEEP_HOURS, what)
+
+
 def timed(grid: Grid, motion: GroundMotion, certify: bool = True) -> tuple[float, int]:
     """Compute all columns of a small grid in this thread; return its core seconds and changes of phase."""
     from fdspec.kernels.storey.history import RESULTS
@@ -269,10 +303,6 @@ def timed(grid: Grid, motion: GroundMotion, certify: bool = True) -> tuple[float
     started = time.thread_time()
     results, _, _ = _run_columns(grid, certify, False, None, columns, motion)
     return time.thread_time() - started, int(results[:, :, RESULTS.index("transitions")].sum())
-
-
-def _core_seconds(samples: int, grid: Grid, certify: bool) -> float:
-    return samples * grid.size * SECONDS_PER_SAMPLE * (1.35 if certify else 1.0)
 
 
 def _warm() -> None:

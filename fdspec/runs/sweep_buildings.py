@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import math
 from collections.abc import Iterable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Final
@@ -14,7 +15,10 @@ from numpy.typing import ArrayLike, NDArray
 from fdspec.model.building import Frame
 from fdspec.model.building_grid import BuildingGrid, Buildings
 from fdspec.model.motion import GroundMotion
+from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_history
 from fdspec.runs.cube import assemble, chosen, named
+from fdspec.runs.plausible import warn_of_units
+from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.threads import Task, cores, fan_out, plan
 from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS
 
@@ -23,9 +27,6 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
-
-SECONDS_PER_SAMPLE: Final = 0.8e-6
-"""Core time of one history for each sample of its record and N^1.5, roughly; for plans, not for results."""
 
 LONG: Final = 60.0
 """s of work above which it is told what a stop would lose."""
@@ -49,7 +50,7 @@ def sweep_buildings(
     scheduler: str = "threads",
     cells_per_task: int | None = None,
     client: Client | None = None,
-    progress: bool = False,
+    progress: Shown = False,
 ) -> xr.Dataset:
     """Compute the cube of buildings: peaks of every storey over record, building and two factors on dampers.
 
@@ -82,8 +83,8 @@ def sweep_buildings(
         Histories of one task; about 0.2 s of work unless given.  No result depends on it.
     client : distributed.Client, optional
         Any cluster of dask.distributed, in place of threads here.
-    progress : bool
-        Show a bar on stderr where it is a terminal.
+    progress : bool or callable
+        Show a bar on stderr where it is a terminal or a notebook's; or call this with (done, total).
 
     Returns
     -------
@@ -118,7 +119,21 @@ def sweep_buildings(
     motions = named(motions)
     wanted = chosen(outputs, OUTPUTS, certify)
     histories = _ends(grid)[-1 if set(LIMITS) & set(wanted) else 0]
-    seconds = [histories * motion.n * SECONDS_PER_SAMPLE * grid.n_storeys**1.5 for motion in motions]
+    what = f"a sweep of {len(motions) * histories:.4g} histories"
+    refuse_large(8.0 * len(motions) * histories * grid.n_storeys * 2 * len(wanted), what)
+    seconds = [
+        histories
+        * max(seconds_of_history(building, motion.dt, motion.n) for building in grid.buildings)
+        * math.sqrt(max(1.0, float(grid.stiffness_scale.mean())))
+        for motion in motions
+    ]
+    refuse_long(sum(seconds), SWEEP_HOURS, what)
+    warn_of_units(
+        motions,
+        period=[building.bare_periods[0] for building in grid.buildings],
+        slip_force=grid.slip_force,
+        floor_mass=[building.floor_mass.min() for building in grid.buildings],
+    )
     tasks = plan(histories, seconds, cells_per_task, "cells_per_task")
     if (expected := sum(seconds) / cores()) > LONG:
         log.warning(
