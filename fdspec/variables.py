@@ -127,6 +127,17 @@ def response_variables(grid: tuple[str, ...], storey: tuple[str, ...] = ()) -> t
         Variable("input_energy", grid, "J", "energy put in by the ground motion, in the ground's frame"),
         Variable("energy_error", grid, "1", "error of the energy balance relative to the energy in play"),
         Variable("status", grid, "", "how the integration ended", "int8", _flags(STATUSES)),
+        *demand_variables(each),
+    )
+
+
+def demand_variables(each: tuple[str, ...]) -> tuple[Variable, ...]:
+    """Return what a designer reads off of each storey, beside the floor's peaks."""
+    return (
+        Variable("peak_slip", each, "m", "largest slip of the damper from where it was fastened"),
+        Variable("residual_slip", each, "m", "final slip offset of the damper"),
+        Variable("peak_brace_force", each, "N", "peak force in the spring and dashpot of the brace"),
+        Variable("peak_column_shear", each, "N", "peak shear force of the columns, without P-delta"),
     )
 
 
@@ -271,6 +282,9 @@ HISTORY: Final[Registry] = registry_of(
         Variable("brace_displacement", _EACH, "m", "displacement of the brace relative to the ground"),
         Variable("brace_velocity", _EACH, "m/s", "velocity of the brace relative to the ground"),
         Variable("friction_force", _EACH, "N", "force of the damper, positive against forward slip"),
+        Variable("slip", _EACH, "m", "slip of the damper from where it was fastened, positive forward"),
+        Variable("brace_force", _EACH, "N", "force in the spring and dashpot of the brace"),
+        Variable("column_shear", _EACH, "N", "shear force of the columns, without P-delta"),
         Variable("phase", _EACH, "", "phase of the damper", "int8", _flags(PHASES)),
         Variable("slip_travel", _EACH, "m", "distance slipped in the damper so far"),
         Variable("kinetic_energy", _OVER_TIME, "J", "kinetic energy relative to the ground"),
@@ -305,6 +319,7 @@ HISTORY: Final[Registry] = registry_of(
         Variable("energy_error", (), "1", "error of the energy balance relative to the energy in play"),
         Variable("status", (), "", "how the integration ended", "int8", _flags(STATUSES)),
     ),
+    demand_variables(_STOREY),
 )
 """The variables of one simulated history, dims time, storey and transition."""
 

@@ -45,6 +45,10 @@ class Course:
     peak_storey_shear: FloatArray
     peak_base_shear: float
     residual_displacement: FloatArray
+    peak_slip: FloatArray
+    residual_slip: FloatArray
+    peak_brace_force: FloatArray
+    peak_column_shear: FloatArray
     dissipated_energy: float
     energy_error: float
     status: int

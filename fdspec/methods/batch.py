@@ -57,5 +57,9 @@ def _results(course: Course) -> tuple[float, ...]:
         "input_energy": course.input_energy[-1],
         "energy_error": course.energy_error,
         "status": course.status,
+        "peak_slip": course.peak_slip[0],
+        "residual_slip": course.residual_slip[0],
+        "peak_brace_force": course.peak_brace_force[0],
+        "peak_column_shear": course.peak_column_shear[0],
     }
     return tuple(float(values[name]) for name in RESULTS)

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from fdspec.engines.demands import brace_force_of, column_shear_of
 from fdspec.engines.step_count import refuse_endless
 from fdspec.engines.trajectory import Course, FloatArray, Span
 from fdspec.errors import IntegrationError, InvalidInput
@@ -93,7 +94,7 @@ def simulate(
         raise InvalidInput(f"motion must be a GroundMotion, got {type(motion).__name__}")
     span = _span(motion, dt_out, free_vibration)
     samples = float(motion.n + span.free_steps)
-    traces = (13.0 * building.n_storeys + 6.0) * span.outputs
+    traces = (16.0 * building.n_storeys + 6.0) * span.outputs
     refuse_large(8.0 * (samples + 2.0 * traces), f"a history of {samples:.4g} samples")
     if method == EXACT:
         seconds = seconds_of_history(building, motion.dt, samples)
@@ -191,6 +192,8 @@ def _dataset(
         np.einsum("ti,ij,tj->t", course.displacement, building.stiffness_matrix, course.displacement)
         + brace_drift**2 @ building.brace_stiffness
     )
+    braced = building.brace_stiffness > 0.0
+    slip = np.where(braced, course.displacement - course.brace_displacement, 0.0)
     residual = course.residual_displacement
     storeys = np.arange(1, building.n_storeys + 1)
     each = ("time", "storey")
@@ -204,6 +207,9 @@ def _dataset(
         "brace_displacement": (each, course.brace_displacement),
         "brace_velocity": (each, course.brace_velocity),
         "friction_force": (each, course.friction_force),
+        "slip": (each, slip),
+        "brace_force": (each, brace_force_of(building, course)),
+        "column_shear": (each, column_shear_of(building, course.displacement)),
         "phase": (each, course.phase.astype(np.int8)),
         "slip_travel": (each, course.slip_travel),
         "kinetic_energy": ("time", kinetic),
@@ -222,6 +228,10 @@ def _dataset(
         "peak_storey_shear": ("storey", course.peak_storey_shear),
         "peak_base_shear": ((), course.peak_base_shear),
         "residual_displacement": ("storey", residual),
+        "peak_slip": ("storey", course.peak_slip),
+        "residual_slip": ("storey", course.residual_slip),
+        "peak_brace_force": ("storey", course.peak_brace_force),
+        "peak_column_shear": ("storey", course.peak_column_shear),
         "residual_drift": ("storey", np.diff(residual, prepend=0.0)),
         "storey_transitions": (
             "storey",

@@ -12,11 +12,12 @@ import numpy as np
 from numba import types
 
 from fdspec.compiler.options import entry, float1d, float2d, ground1d, int1d
-from fdspec.kernels.batch.deferred_peaks import N_CREST, QUANTITIES, keep_crests, settle_crests
+from fdspec.kernels.batch.deferred_peaks import N_BRACE, N_CREST, QUANTITIES, keep_brace, keep_crests, settle_brace, settle_crests
 from fdspec.kernels.batch.layout import (
     HELD,
     N_ROWS,
     WIDTH,
+    is_brace_calm,
     is_calm,
     put_lane,
     put_state,
@@ -86,6 +87,7 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, results, held):
     s, losses = np.zeros(N_STATE), np.zeros(N_FORMS)
     given_up = np.zeros((WIDTH, N_STATE))
     crests = np.zeros((WIDTH, len(QUANTITIES), N_CREST))
+    braces = np.zeros((WIDTH, N_BRACE))
     floor, brace, search = np.empty(TERMS), np.empty(TERMS), np.empty(TERMS)
     times, phases, traces = np.empty(0), np.empty(0, np.int64), np.empty((0, 0))
     slipping = 0
@@ -117,6 +119,7 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, results, held):
             for lane in range(count):
                 if to_keep >> lane & 1:
                     keep_crests(p, lane, take_plan(shelf, lane), crests, start, rate, floor, search)
+                    keep_brace(p, lane, take_plan(shelf, lane), braces, start, rate, floor, search)
                 elif to_walk >> lane & 1:
                     take_state(p, lane, s)
                     if certify:
@@ -132,6 +135,7 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, results, held):
                         rate,
                         certify,
                         is_calm(p, lane, s),
+                        is_brace_calm(p, lane, s),
                         floor,
                         brace,
                         search,
@@ -152,6 +156,7 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, results, held):
                     slipping += (1 if after else 0) - (1 if before else 0)
     for lane in range(count):
         settle_crests(p, lane, take_plan(shelf, lane), crests, floor, search)
+        settle_brace(p, lane, take_plan(shelf, lane), braces, floor, search)
         take_state(p, lane, s)
         if given_up[lane, STATUS] != OK:
             for row in range(N_STATE):

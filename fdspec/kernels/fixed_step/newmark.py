@@ -42,6 +42,10 @@ STOREY_RESULTS = (
     "peak_drift",
     "peak_storey_shear",
     "residual_displacement",
+    "peak_slip",
+    "residual_slip",
+    "peak_brace_force",
+    "peak_column_shear",
 )
 TOTALS = ("transitions", "dissipated_energy", "energy_error", "status", "evaluations")
 """What a history of all storeys leaves behind; evaluations of (36), one a step if nothing had to iterate."""
@@ -388,6 +392,7 @@ def integrate(
     friction = 0.0
     for i in range(n):
         results[5, i] = x[U, i]
+        results[7, i] = x[U, i] - x[D, i] if storeys[BRACE_STIFFNESS, i] > 0.0 else 0.0
         friction += slipped[1, i]
     missing = work[0] + at_start - stored(storeys, stiffness, x) - work[1] - friction
     scale = abs(work[0]) + at_start

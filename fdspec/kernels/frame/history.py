@@ -15,6 +15,13 @@ import numpy as np
 from numba import types
 
 from fdspec.compiler.options import entry, float1d, float2d, float3d, inner, int1d
+from fdspec.kernels.frame.demands import (
+    DEMAND_ROWS,
+    finish_demands,
+    has_only_columns,
+    raise_column_shears,
+    raise_demands,
+)
 from fdspec.kernels.frame.energy import (
     input_work,
     stored_energy,
@@ -89,8 +96,12 @@ STOREY_RESULTS = (
     "slip_travel",
     "storey_transitions",
     "storey_friction_energy",
+    "peak_slip",
+    "peak_brace_force",
+    "peak_column_shear",
+    "residual_slip",
 )
-"""Rows of ``by_storey`` (11, N); the first six are the peaks."""
+"""Rows of ``by_storey`` (15, N); the first six are the peaks, the last four the demands."""
 
 COUNTS = 9
 """Row of the number of changes of phase."""
@@ -139,6 +150,7 @@ def history(
     energies,
     peaks,
     counts,
+    demands,
     by_storey,
     totals,
 ):
@@ -149,6 +161,7 @@ def history(
     size = frame.shape[1]
     damped = is_damped(frame)
     grounded = is_grounded(frame)
+    only_columns = has_only_columns(frame, dense_stiffness)
     held = held_rates(frame, dense_stiffness, dense_damping)
     held_rate = rate_of(held[0], held[1])
     prepare(frame, model, held)
@@ -293,6 +306,9 @@ def history(
                     viscous += viscous_work(frame, dense_damping, damped, series, n, h, done, speeds)
                 end_of_step(series, n, done, state)
                 raise_peaks(frame, model, series, reach, state, n, h, done, acceleration, rise, c, peaks)
+                raise_demands(model, series, reach, state, n, h, done, acceleration, rise, c, demands)
+                if not only_columns:
+                    raise_column_shears(dense_stiffness, model, series, n, done, c, demands)
                 for i in range(size):
                     fresh[i] = 0
                     touching[i] = 0
@@ -336,6 +352,7 @@ def history(
         if status != OK:
             break
 
+    finish_demands(frame, only_columns, state, peaks, demands)
     friction = 0.0
     for i in range(size):
         travel = travel_so_far(phase, state[OFFSET, i], tally, i)
@@ -476,6 +493,7 @@ def integrate(
         energies,
         by_storey[:PEAK_ROWS],
         by_storey[COUNTS],
+        by_storey[len(STOREY_RESULTS) - DEMAND_ROWS :],
         by_storey,
         totals,
     )

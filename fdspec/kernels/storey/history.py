@@ -19,10 +19,13 @@ from fdspec.kernels.types import (
     ENERGY_TOLERANCE,
     INPUT,
     NON_FINITE_STATE,
+    OFFSET,
     OK,
     PEAK_ACCELERATION,
+    PEAK_BRACE,
     PEAK_DISPLACEMENT,
     PEAK_SHEAR,
+    PEAK_SLIP,
     PEAK_VELOCITY,
     PHASE,
     RELEASE,
@@ -51,6 +54,10 @@ RESULTS = (
     "input_energy",
     "energy_error",
     "status",
+    "peak_slip",
+    "residual_slip",
+    "peak_brace_force",
+    "peak_column_shear",
 )
 """What a history leaves behind, in the order of its result row."""
 
@@ -95,6 +102,11 @@ def finish(storey, s, certify, result):
     result[8] = s[INPUT]
     result[9] = error
     result[10] = s[STATUS]
+    slip = s[OFFSET] if s[PHASE] == STICK else motion.u - motion.d
+    result[11] = max(s[PEAK_SLIP], abs(slip))
+    result[12] = slip
+    result[13] = s[PEAK_BRACE]
+    result[14] = storey.floor_stiffness * s[PEAK_DISPLACEMENT]
     size = 0.0
     for k in range(10):
         size += abs(result[k])
@@ -159,6 +171,7 @@ def history(
             a0,
             rate,
             True,
+            False,
             False,
             floor,
             brace,
