@@ -38,13 +38,17 @@ def integrate_single_storey(
     no_times, no_phases = np.empty(0), np.empty(0, np.int64)
 
     def run(
-        times: FloatArray, phases: np.ndarray[tuple[int], np.dtype[np.int64]], traces: FloatArray
-    ) -> None:
-        integrate(
+        times: FloatArray,
+        phases: np.ndarray[tuple[int], np.dtype[np.int64]],
+        traces: FloatArray,
+        at_rest: bool = False,
+    ) -> int:
+        taken: int = integrate(
             storey,
             motion.acceleration,
             motion.dt,
             span.free_steps,
+            at_rest,
             radians,
             state,
             times,
@@ -53,6 +57,7 @@ def integrate_single_storey(
             traces,
             result,
         )
+        return taken
 
     traces = np.full((span.outputs, len(TRACES)), np.nan)
     run(no_times, no_phases, traces)

@@ -180,5 +180,5 @@ def is_calm(p, lane, s):
 
 @inlined
 def is_brace_calm(p, lane, s):
-    """Whether a step does not pass the brace force's peak in the state ``s``, unless the phase changes on it."""
+    """Whether a step passes no peak of the brace force in the state ``s``, unless the phase changes on it."""
     return at(p, CREST_B, lane) <= s[PEAK_BRACE]

@@ -168,7 +168,8 @@ def stick_lanes(p, h, ground, rate):
         m_b = at(p, BRACE_MASS, lane)
         f1 = fma(-m_b, q1, r1)
         crest_b = max(
-            abs(fma(m_b, fma(third, fall0, -q0), r0 + rise0)), abs(fma(-m_b, fma(third, fall1, q1), r1 - rise1))
+            abs(fma(m_b, fma(third, fall0, -q0), r0 + rise0)),
+            abs(fma(-m_b, fma(third, fall1, q1), r1 - rise1)),
         )
         crest_b = fma(swing, fma(m_b, at(p, S_TAIL_Q, lane), at(p, HOLD_TAIL, lane)), crest_b)
         top_b = max(at(p, PEAK_BRACE, lane), abs(f1))
@@ -273,8 +274,7 @@ def slip_lanes(p, h, ground, rate):
         crest_s = fma(m, max(max(abs(q0), abs(q1)), crest_q), crest_s)
         crest_s = min(crest_s, max(max(abs(s0), abs(s1)), inside))
         shear = max(at(p, PEAK_SHEAR, lane), abs(s1))
-        # The brace carries friction less the inertia of its own mass: so much in its quasi-static motion, and as
-        # much more as it rings.
+        # The brace carries friction less its own inertia: that of its quasi-static motion, and of its ringing.
         f0 = fma(g_b, e, w2_b * d)
         f1 = fma(g_b, e1, w2_b * d1)
         inside = max(

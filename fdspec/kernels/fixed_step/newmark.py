@@ -192,10 +192,13 @@ def storey_shear(storeys, x, ground, i):
 
 
 @inlined
-def raise_peaks(storeys, x, ground, results):
+def raise_peaks(storeys, stiffness, x, ground, results):
     """Raise the peaks to this state's."""
     shear = 0.0
+    columns = 0.0
     for i in range(x.shape[1] - 1, -1, -1):
+        for j in range(x.shape[1]):
+            columns += stiffness[i, j] * x[U, j]
         absolute = x[A, i] + ground
         shear -= storeys[FLOOR_MASS, i] * absolute + storeys[BRACE_MASS, i] * (x[B, i] + ground)
         drift = x[U, i] - (x[U, i - 1] if i > 0 else 0.0)
@@ -204,6 +207,10 @@ def raise_peaks(storeys, x, ground, results):
         results[2, i] = max(results[2, i], abs(x[V, i]))
         results[3, i] = max(results[3, i], abs(drift))
         results[4, i] = max(results[4, i], abs(shear))
+        if storeys[BRACE_STIFFNESS, i] > 0.0:
+            results[6, i] = max(results[6, i], abs(x[U, i] - x[D, i]))
+            results[8, i] = max(results[8, i], abs(brace_force(storeys, x, i)))
+        results[9, i] = max(results[9, i], abs(columns))
 
 
 @inlined
@@ -319,7 +326,7 @@ def integrate(
                 times[changes], changed[changes], phases[changes] = 0.0, i, phase[i]
             changes += 1
     balance(storeys, stiffness, damping, phase, x, ground[0, 0])
-    raise_peaks(storeys, x, ground[0, 0], results)
+    raise_peaks(storeys, stiffness, x, ground[0, 0], results)
     given, lost = powers(storeys, damping, x, ground[0, 0])
     at_start = stored(storeys, stiffness, x)
     told = 0
@@ -334,7 +341,7 @@ def integrate(
         first, last = ground[interval, 0], ground[interval, 1]
         if interval > 0 and first != ground[interval - 1, 1]:
             balance(storeys, stiffness, damping, phase, x, first)
-            raise_peaks(storeys, x, first, results)
+            raise_peaks(storeys, stiffness, x, first, results)
             given, lost = powers(storeys, damping, x, first)
         for part in range(parts):
             begin = first + (last - first) * (part / parts)
@@ -369,7 +376,7 @@ def integrate(
                 energies[told, 1] = lost_before + share * (work[1] - lost_before)
                 told += 1
             x, new = new, x
-            raise_peaks(storeys, x, end, results)
+            raise_peaks(storeys, stiffness, x, end, results)
             differs = False
             for i in range(n):
                 after = next_phase(storeys, stiffness, damping, phase, x, i)
@@ -385,7 +392,7 @@ def integrate(
                 for i in range(n):
                     phase[i] = int(new[R, i])
                 balance(storeys, stiffness, damping, phase, x, end)
-                raise_peaks(storeys, x, end, results)
+                raise_peaks(storeys, stiffness, x, end, results)
                 given, lost = powers(storeys, damping, x, end)
         if status != OK:
             break

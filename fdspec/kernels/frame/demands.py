@@ -81,7 +81,7 @@ def raise_demands(model, series, reach, state, n, h, x, ground, rise, c, demands
 
 @inner
 def raise_column_shears(dense_stiffness, model, series, n, x, c, demands):
-    """Raise the peaks of the columns' shear in a frame whose stiffness is more than springs between neighbours."""
+    """Raise the peaks of the columns' shear where the frame has more than springs between neighbours."""
     size = demands.shape[1]
     for storey in range(size):
         most = 0.0

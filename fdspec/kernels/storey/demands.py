@@ -1,7 +1,7 @@
 """What a designer reads off beside the floor's peaks: the force in the brace, of one piece at a time.
 
-The brace's spring and dashpot carry B = k_d d + c_d d'.  While floor and brace stick they move as one, and B is
-a quantity of that one oscillator.  While they slip the brace rings about its quasi-static motion,
+The brace's spring and dashpot carry B = k_d d + c_d d'.  While floor and brace stick they move as one, and B
+is a quantity of that one oscillator.  While they slip the brace rings about its quasi-static motion,
 
     B = s F_sl - m_d (d'' + a_g),        |B| <= max |s F_sl - m_d a_g| + m_d omega_d ring,
 
@@ -50,8 +50,8 @@ def force_series(kd, cd, c, n, share, h, out):
 def stick_brace_peak(plan, floor, search, n, share, start, end, force, offset, h, best):
     """The greater of ``best`` and the largest brace force after the start of a piece of stick.
 
-    ``share`` tells what ``floor`` holds, as for `fdspec.kernels.storey.bounds.floor_peaks`; what it holds stays
-    unless that is nothing.
+    ``share`` tells what ``floor`` holds, as for `fdspec.kernels.storey.bounds.floor_peaks`; it is left
+    as it is unless that is nothing.
     """
     b = plan.stick
     kd, cd = plan.storey.brace_stiffness, plan.storey.brace_damping

@@ -14,11 +14,12 @@ from fdspec.kernels.types import N_STATE, Motion, Storey
 
 
 @entry(
-    types.void(
+    types.int64(
         record_of(Storey),
         ground1d,
         types.float64,
         types.int64,
+        types.boolean,
         types.float64,
         record_of(Motion),
         float1d,
@@ -28,7 +29,7 @@ from fdspec.kernels.types import N_STATE, Motion, Storey
         float1d,
     )
 )
-def integrate(storey, ground, dt, free_steps, radians, start, times, phases, dt_out, traces, result):
+def integrate(storey, ground, dt, free_steps, at_rest, radians, start, times, phases, dt_out, traces, result):
     """Integrate one history; arguments as in :func:`fdspec.kernels.storey.history.history`."""
     parts = steps_per_sample(storey, dt, radians)
     scheme = plan(storey, dt / parts, radians)
@@ -36,13 +37,14 @@ def integrate(storey, ground, dt, free_steps, radians, start, times, phases, dt_
     put_losses(scheme, forms)
     s = np.empty(N_STATE)
     floor, brace, search = np.empty(TERMS), np.empty(TERMS), np.empty(TERMS)
-    history(
+    return history(
         scheme,
         forms,
         ground,
         dt,
         parts,
         free_steps,
+        at_rest,
         start,
         s,
         floor,

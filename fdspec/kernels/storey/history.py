@@ -12,7 +12,8 @@ import math
 from fdspec.compiler.options import inner
 from fdspec.kernels.friction import reaction
 from fdspec.kernels.storey.energy import stored_energy
-from fdspec.kernels.storey.step import begin, walk
+from fdspec.kernels.storey.rest import settle_at_rest
+from fdspec.kernels.storey.step import begin, come_to_rest, walk
 from fdspec.kernels.types import (
     ANCHOR,
     ENERGY_NOT_CLOSED,
@@ -125,6 +126,7 @@ def history(
     dt,
     parts,
     free_steps,
+    at_rest,
     start,
     s,
     floor,
@@ -139,7 +141,9 @@ def history(
     """Integrate one history, with its energies, and fill ``result`` (see RESULTS).
 
     ground: acceleration at the samples, m/s2, (n,); parts: steps of the plan in each dt;
-    free_steps: record steps with the ground at rest that follow.  start: Motion at t = 0, the brace
+    free_steps: record steps with the ground at rest that follow; at_rest: whether it goes on from there until
+    nothing can slip any more, without room for traces.  Returns the record steps that this took.
+    start: Motion at t = 0, the brace
     locked where it stands, unless its velocity differs.  times, phases: changes of phase as far as
     they have room.  traces (m, len(TRACES)): filled at k dt_out for k < m.
     """
@@ -185,4 +189,12 @@ def history(
         )
         if s[STATUS] != OK:
             break
+    taken = (
+        come_to_rest(plan, forms, s, parts, True, floor, brace, search, times, phases, traces)
+        if at_rest
+        else 0
+    )
     finish(plan.storey, s, True, result)
+    if at_rest and s[STATUS] == OK:
+        settle_at_rest(plan.storey, s, result)
+    return taken

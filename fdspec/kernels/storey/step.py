@@ -24,6 +24,7 @@ from fdspec.kernels.storey.energy import (
     stored_energy,
 )
 from fdspec.kernels.storey.output import floor_acceleration, write_trace
+from fdspec.kernels.storey.rest import REST_STEPS, is_at_rest
 from fdspec.kernels.storey.segment import at_once, part_loss, whole_loss
 from fdspec.kernels.storey.slip import (
     base_shear,
@@ -42,6 +43,7 @@ from fdspec.kernels.types import (
     NO_KICK,
     NON_FINITE_STATE,
     OFFSET,
+    OK,
     PEAK_ACCELERATION,
     PEAK_BRACE,
     PEAK_DISPLACEMENT,
@@ -185,8 +187,9 @@ def walk(
 
     forms: the losses of the plan, (N_FORMS,), read where certify.  at: time of the step's start, s;
     a0, rate: ground acceleration there (m/s2) and its rate (m/s3).  certify: whether the work of the viscous
-    dampers is kept.  calm: whether it is known that no peak of the floor or base shear is passed before the
-    phase changes; brace_calm: the same of the brace force.  floor, brace, search: room for series, (TERMS,).  times, phases: changes of
+    dampers is kept.  calm: whether it is known that no peak of the floor or of base shear
+    is passed before the phase changes; brace_calm: the same of the brace force.
+    floor, brace, search: room for series, (TERMS,).  times, phases: changes of
     phase, as far as they have room.  traces (m, len(TRACES)): row k is
     written at k dt_out once that is not later than ``reach`` past what has been walked; with m = 0
     nothing is written, else every piece is expanded.
@@ -383,3 +386,41 @@ def walk(
     s[PEAK_SHEAR] = peaks.shear
     s[PEAK_BRACE] = strongest
     return written
+
+
+@inner
+def come_to_rest(plan, forms, s, parts, certify, floor, brace, search, times, phases, traces):
+    """Go on with the ground at rest until nothing can slip any more; return the record steps taken.
+
+    parts: steps of the plan in each of them.  times, phases, traces: as for `walk`, and without room.
+    """
+    taken = 0
+    while s[STATUS] == OK and not is_at_rest(plan, s):
+        if taken == REST_STEPS:
+            s[STATUS] = TRANSITION_CAP_REACHED
+            break
+        for _ in range(parts):
+            walk(
+                plan,
+                forms,
+                s,
+                0.0,
+                0.0,
+                0.0,
+                certify,
+                False,
+                False,
+                floor,
+                brace,
+                search,
+                times,
+                phases,
+                traces,
+                0.0,
+                0,
+                0.0,
+            )
+            if s[STATUS] != OK:
+                break
+        taken += 1
+    return taken
