@@ -10,6 +10,7 @@ from fdspec.figures.history import plot_history
 from fdspec.figures.hysteresis import plot_hysteresis
 from fdspec.figures.maps import plot_acceleration_maps
 from fdspec.figures.record import plot_record
+from fdspec.figures.sketch import plot_sketch, sketch_caption
 from fdspec.figures.surfaces import acceleration_caption, plot_acceleration
 from fdspec.figures.validation import plot_bare_and_damped, plot_brace_displacements
 
@@ -30,6 +31,8 @@ __all__ = [
     "plot_history",
     "plot_hysteresis",
     "plot_record",
+    "plot_sketch",
     "plot_spectra",
     "shortest_stick",
+    "sketch_caption",
 ]

@@ -17,6 +17,7 @@ from fdspec.figures import acceleration_caption, plot_acceleration, plot_acceler
 from fdspec.figures.encoding import encode
 from fdspec.figures.panels import BEST, HEIGHT
 from fdspec.figures.storeys import phase_spans
+from fdspec.measures import hysteresis
 from fdspec.units import G
 from tests.cubes import synthetic_cube, synthetic_history
 
@@ -371,8 +372,9 @@ def test_history_draws_one_storey_in_readable_units(history: xr.Dataset) -> None
     assert np.allclose(displaced.lines[0].get_ydata(), one["displacement"].values * 1e3)
     assert np.allclose(displaced.lines[1].get_ydata(), one["brace_displacement"].values * 1e3)
     assert np.allclose(held.lines[0].get_ydata(), one["friction_force"].values / 1e3)
-    slip = (one["displacement"] - one["brace_displacement"]).values * 1e3
-    assert np.allclose(loop.lines[0].get_xdata(), slip)
+    corners = hysteresis(history, 2)
+    assert np.allclose(loop.lines[0].get_xdata(), corners["slip"].values * 1e3)
+    assert np.allclose(loop.lines[0].get_ydata(), corners["force"].values / 1e3)
     assert [axis.get_ylabel() for axis in (displaced, held, accelerated)] == [
         "displacement, mm",
         "friction force, kN",
