@@ -13,7 +13,7 @@ from fdspec.figures.storeys import FLOOR
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from fdspec.building import Building
+    from fdspec.model.building import Building
 
 STEEL, DARK, PLATE = "#dfe4e8", "#30363c", "#f2c9ac"
 

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import fdspec
-from fdspec.building import Building
+from fdspec.model.building import Building
 from fdspec.errors import InvalidInput
 from fdspec.measures import hysteresis
-from fdspec.motion import GroundMotion
+from fdspec.model.motion import GroundMotion
 
 
 @pytest.fixture(scope="module")

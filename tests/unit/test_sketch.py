@@ -4,7 +4,7 @@ import pytest
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
-from fdspec.building import Building
+from fdspec.model.building import Building
 from fdspec.figures import encode, plot_sketch
 from fdspec.figures.sketch import MOST
 from tests.unit.test_figures import overlapping
