@@ -172,7 +172,9 @@ def choose(
         workers=workers,
         progress=True,
     )
-    click.echo(text(choice))
+    from fdspec.cli.table import text_width
+
+    click.echo(text(choice, width=text_width()))
     if cube_path is not None:
         from fdspec.store import save
 

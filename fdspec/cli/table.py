@@ -25,9 +25,14 @@ FOLDED: Final = 28
 GOOD, FAIR, BAD = "green", "yellow", "red"
 
 
+def on_terminal() -> bool:
+    """Say whether a person reads stdout."""
+    return sys.stdout.isatty()
+
+
 def terminal_width() -> int | None:
     """Return the letters in a line of the terminal; None where stdout is none, and lines stay whole."""
-    return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
+    return shutil.get_terminal_size().columns if on_terminal() else None
 
 
 def text_width() -> int:
@@ -125,7 +130,7 @@ def _aligned(
 
 def styled(text: str, colour: str | None) -> str:
     """Return text in a colour where stdout is a terminal and NO_COLOR (no-color.org) is not set."""
-    if colour is None or os.environ.get("NO_COLOR") or not sys.stdout.isatty():
+    if colour is None or os.environ.get("NO_COLOR") or not on_terminal():
         return text
     return click.style(text, fg=colour)
 

@@ -154,7 +154,7 @@ def _file_checksums(cube: xr.Dataset) -> Finding:
 
 def _statuses(cube: xr.Dataset) -> Finding:
     counts = status_counts(cube)
-    told = ", ".join(f"{number} {meaning}" for meaning, number in counts.items())
+    told = ", ".join(f"{number:,} {meaning}".replace(",", " ") for meaning, number in counts.items())
     return Finding("statuses", set(counts) == {"ok"}, told)
 
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import fdspec
-from fdspec.model.building import Building
 from fdspec.errors import InvalidInput
 from fdspec.measures import hysteresis
+from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
 
 

@@ -4,9 +4,9 @@ import pytest
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
-from fdspec.model.building import Building
 from fdspec.figures import encode, plot_sketch
 from fdspec.figures.sketch import MOST
+from fdspec.model.building import Building
 from tests.unit.test_figures import overlapping
 
 
