@@ -88,15 +88,11 @@ def _widths(lines: Sequence[Sequence[str]]) -> list[int]:
 
 
 def _blocks(widths: Sequence[int], width: int) -> list[list[int]]:
-    """Return the columns of each block; every block begins with the first column."""
-    blocks, used = [[0]], widths[0]
-    for k in range(1, len(widths)):
-        if len(blocks[-1]) > 1 and used + GAP + widths[k] > width:
-            blocks.append([0])
-            used = widths[0]
-        blocks[-1].append(k)
-        used += GAP + widths[k]
-    return blocks
+    """Return the columns of each block, as even as may be; every block begins with the first column."""
+    across = max(1, (width - widths[0]) // (GAP + max(widths[1:])))
+    others = len(widths) - 1
+    count = -(-others // -(-others // across))
+    return [[0, *range(k, min(k + count, others + 1))] for k in range(1, others + 1, count)]
 
 
 def _folded(lines: Sequence[Sequence[str]], room: int) -> list[list[str]]:

@@ -6,6 +6,7 @@ import textwrap
 from typing import TYPE_CHECKING, Final
 
 from fdspec.report.findings import CASES, assumptions, recommendation
+from fdspec.report.inputs import structure
 from fdspec.report.rows import record_rows
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ def text(choice: xr.Dataset, *, width: int = WIDTH) -> str:
     -------
     str
     """
-    told = recommendation(choice)
+    told = [*recommendation(choice), ("Structure", structure(choice))]
     indent = max(len(head) for head, _ in told) + 2
     lines = [
         line
@@ -59,12 +60,12 @@ def _table(rows: list[list[str]], width: int) -> list[str]:
     """Return rows in columns; those that find no room stand below, the first column before them again."""
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines: list[str] = []
+    across = max(1, (width - widths[0]) // (GAP + max(widths[1:])))
+    whole = sum(widths) + GAP * (len(widths) - 1) <= width
     left = list(range(1, len(widths)))
+    count = len(left) if whole else -(-len(left) // -(-len(left) // across))  # blocks of even size
     while left:
-        shown, used = [], widths[0]
-        while left and (not shown or used + GAP + widths[left[0]] <= width):
-            used += GAP + widths[left[0]]
-            shown.append(left.pop(0))
+        shown, left = left[:count], left[count:]
         for row in rows:
             cells = [row[0].ljust(widths[0]), *(row[k].rjust(widths[k]) for k in shown)]
             lines.append((" " * GAP).join(cells).rstrip())
