@@ -183,7 +183,7 @@ def test_each_method_is_drawn_over_the_first(history: xr.Dataset) -> None:
     other = history.isel(time=slice(None, None, 10)).copy(deep=True)
     other["brace_displacement"].values[3, 0] += 7.0  # m
     figure = plot_brace_displacements({"exact": history, "band": other}, end=0.5, caption="Words.")
-    exact, band = figure.axes
+    exact, band, error = figure.axes
     np.testing.assert_allclose(exact.lines[0].get_ydata(), 1e3 * history["brace_displacement"].sel(storey=1))
     behind, before = band.lines
     assert np.array_equal(behind.get_ydata(), exact.lines[0].get_ydata())
@@ -191,7 +191,13 @@ def test_each_method_is_drawn_over_the_first(history: xr.Dataset) -> None:
     assert band.get_title(loc="left").endswith("off by up to 7e+03 mm")
     most = np.abs(1e3 * history["brace_displacement"].sel(storey=1).values[:501]).max()
     assert exact.get_ylim() == band.get_ylim() == (pytest.approx(-1.25 * most), pytest.approx(1.25 * most))
-    assert figure.get_supylabel() == "displacement of the brace, mm"
+    assert exact.get_ylabel() == "displacement\nof the brace, mm"
+    assert error.get_yscale() == "log"
+    apart = np.abs(before.get_ydata() - behind.get_ydata()[::10])
+    drawn = error.lines[0].get_ydata()
+    assert (np.diff(drawn) >= 0.0).all()
+    assert drawn[-1] == pytest.approx(apart.max())
+    assert len(plot_brace_displacements({"exact": history}).axes) == 1
     with pytest.raises(InvalidInput, match="histories must name one or more"):
         plot_brace_displacements({})
 
