@@ -56,5 +56,5 @@ def encode(
         metadata["Title"] = told
     file = io.BytesIO()
     with mpl.rc_context(FORMATS):
-        figure.savefig(file, format=kind, metadata=metadata, dpi="figure" if dpi is None else dpi)
+        figure.savefig(file, format=kind, metadata=metadata, dpi=figure.dpi if dpi is None else dpi)
     return file.getvalue()

@@ -142,7 +142,7 @@ def plot_brace_displacements(
         axis.set_title(told, loc="left", fontsize="small", pad=2)
         if reach > 0.0:
             axis.set_ylim(-reach, reach)
-    axes[0].set_ylabel("displacement\nof the brace, mm", fontsize="small")
+    figure.supylabel("displacement of the brace, mm", fontsize="medium")
     axes[-1].set_xlabel("time, s")
     axes[-1].set_xlim(0.0, end)
     if others:
@@ -152,7 +152,7 @@ def plot_brace_displacements(
         axes[-1].grid(visible=True, color="0.92", linewidth=0.5)
         axes[-1].set_title(OFF, loc="left", fontsize="small", pad=2)
         # Between the methods that solve the same equations and those that do not there is room.
-        place = {"loc": "center", "bbox_to_anchor": (0.63, 0.34)} if others > MANY else {"loc": "best"}
+        place = {"loc": "center", "bbox_to_anchor": (0.63, 0.42)} if others > MANY else {"loc": "best"}
         axes[-1].legend(ncols=2, frameon=False, fontsize="x-small", **place)
     if title:
         figure.suptitle(title, fontsize="medium")

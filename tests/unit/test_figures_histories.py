@@ -191,7 +191,7 @@ def test_each_method_is_drawn_over_the_first(history: xr.Dataset) -> None:
     assert band.get_title(loc="left").endswith("off by up to 7e+03 mm")
     most = np.abs(1e3 * history["brace_displacement"].sel(storey=1).values[:501]).max()
     assert exact.get_ylim() == band.get_ylim() == (pytest.approx(-1.25 * most), pytest.approx(1.25 * most))
-    assert exact.get_ylabel() == "displacement\nof the brace, mm"
+    assert figure.get_supylabel() == "displacement of the brace, mm"
     assert error.get_yscale() == "log"
     apart = np.abs(before.get_ydata() - behind.get_ydata()[::10])
     drawn = error.lines[0].get_ydata()
