@@ -96,10 +96,18 @@ def _corners(
         start = at[k - 1] if k > 0 else slip[0]
         stop = at[k] if k < instants.size else slip[-1]
         if phase == 0:
-            points += [(start, value) for value in force[begin:end]]
+            points += [(start, value) for value in _turns(force[begin:end])]
             if k < instants.size:
                 points.append((stop, float(phases[k + 1]) * static))
         else:
             points += [(start, float(phase) * kinetic), (stop, float(phase) * kinetic)]
     corners = np.array(points)
     return corners[:, 0], corners[:, 1]
+
+
+def _turns(values: FloatArray) -> FloatArray:
+    """Return the first and last of values (n,), and those at which they turn: the ends of upright lines."""
+    if values.size < 3:
+        return values
+    steps = np.sign(np.diff(values))
+    return values[np.concatenate(([True], steps[1:] != steps[:-1], [True]))]
