@@ -20,12 +20,6 @@ DATELESS: Final[dict[str, dict[str, Any]]] = {
 AUTHOR: Final = {"png": "Author", "pdf": "Author", "svg": "Creator"}
 """What each kind calls who made it."""
 
-FORMATS: Final = {
-    "svg.hashsalt": "fdspec",  # else SVG names its parts after random numbers
-    "pdf.fonttype": 42,  # TrueType: journals refuse Type 3
-    "ps.fonttype": 42,
-}
-
 
 def encode(
     figure: Figure, kind: str, *, title: str = "", author: str = "", dpi: float | None = None
@@ -55,6 +49,7 @@ def encode(
     if told:
         metadata["Title"] = told
     file = io.BytesIO()
-    with mpl.rc_context(FORMATS):
+    # SVG names its parts after random numbers unless it has a salt; journals refuse the fonts of Type 3.
+    with mpl.rc_context({"svg.hashsalt": "fdspec", "pdf.fonttype": 42}):
         figure.savefig(file, format=kind, metadata=metadata, dpi=figure.dpi if dpi is None else dpi)
     return file.getvalue()

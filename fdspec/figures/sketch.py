@@ -95,11 +95,11 @@ def _frame(axis: Axes, storeys: int, building: Building | None) -> None:
         "column": (-0.28, top - 1.55, f"columns\n$k_f$, $\\zeta${told['column']}", DARK),
         "brace": (right + 0.28, top - 1.55, f"brace\n$k_d$, $m_d${told['brace']}", FRICTION),
     }
-    for name, (x, y, words, colour) in say.items():
+    for name, (across, up, words, colour) in say.items():
         side = {"floor": "center", "column": "right", "brace": "left"}[name]
         axis.text(
-            x,
-            y,
+            across,
+            up,
             words,
             color=colour,
             fontsize=SMALL + 1,
