@@ -48,6 +48,48 @@ class Course:
     dissipated_energy: float
     energy_error: float
     status: int
+    devices: DeviceCourse | None = None
+    """What only buildings with devices have."""
+
+
+@dataclass(frozen=True)
+class DeviceCourse:
+    """What devices add to a history of N storeys and L links: (m,), (m, N) and (m, L) over time, else (N,), (L,)."""
+
+    column_shear: FloatArray
+    plastic_deformation: FloatArray
+    kinetic_energy: FloatArray
+    strain_energy: FloatArray
+    bearing_energy: FloatArray
+    gravity_energy: FloatArray
+    column_work: FloatArray
+    """(m, N) J dissipated in the columns so far."""
+    link_slip: FloatArray
+    link_force: FloatArray
+    link_phase: IntArray
+    link_work: FloatArray
+    peak_slip: FloatArray
+    residual_slip: FloatArray
+    peak_brace_force: FloatArray
+    peak_column_shear: FloatArray
+    peak_column_deformation: FloatArray
+    plastic_drift: FloatArray
+    ductility: FloatArray
+    column_energy: FloatArray
+    column_events: IntArray
+    slot_events: IntArray
+    peak_link_slip: FloatArray
+    residual_link_slip: FloatArray
+    peak_link_force: FloatArray
+    link_energy: FloatArray
+    link_events: IntArray
+    link_contacts: IntArray
+    collapse_storey: int
+    """Storey whose drift reached its limit, counted from 1; 0: none."""
+    collapse_time: float
+    """s"""
+    collapse_drift: float
+    """That limit, m."""
 
 
 @dataclass(frozen=True)

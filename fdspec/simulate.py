@@ -91,6 +91,10 @@ def simulate(
     other = chosen_method(method)
     if other is not None:
         course = other.integrate(building, motion, span, start)
+    elif building.has_devices:
+        from fdspec.device_engine import integrate_devices
+
+        course = integrate_devices(building, motion, span, start)
     elif building.n_storeys == 1:
         from fdspec.single_storey import integrate_single_storey
 
@@ -99,6 +103,13 @@ def simulate(
         from fdspec.many_storeys import integrate_many_storeys
 
         course = integrate_many_storeys(building, motion, span, start)
+    if course.devices is not None and course.devices.collapse_storey > 0:
+        raise IntegrationError(
+            f"the history of {building!r} under {motion.name or 'the motion'} ended with status collapsed: "
+            f"the drift of storey {course.devices.collapse_storey} reached its limit of "
+            f"{course.devices.collapse_drift:g} m at {course.devices.collapse_time:.4f} s "
+            "(collapse_drift of the building sets the limit)"
+        )
     if course.status != 0:
         raise IntegrationError(
             f"the history of {building!r} under {motion.name or 'the motion'} ended with status "

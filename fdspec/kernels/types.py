@@ -14,7 +14,18 @@ TRANSITION_CAP_REACHED: Final = 1
 NON_FINITE_STATE: Final = 2
 """Status: displacement or velocity is no longer a number."""
 
-STATUS_MEANINGS: Final = ("ok", "transition_cap_reached", "non_finite_state")
+ITERATION_NOT_CONVERGED: Final = 3
+"""Status: a method that iterates found no solution; no exact kernel returns it."""
+COLLAPSED: Final = 4
+"""Status: a drift has reached the limit at which the frame counts as collapsed; results end there."""
+
+STATUS_MEANINGS: Final = (
+    "ok",
+    "transition_cap_reached",
+    "non_finite_state",
+    "iteration_not_converged",
+    "collapsed",
+)
 """Name of each status, in the order of the codes."""
 
 TRANSITION_CAP: Final = 50_000_000
