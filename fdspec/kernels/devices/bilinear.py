@@ -6,7 +6,7 @@ stops where the deformation's rate comes to zero.
 
 from __future__ import annotations
 
-from fdspec.jit import inner
+from fdspec.compiler.options import inner
 from fdspec.kernels.devices.guard import (
     NOTHING,
     PASS,
@@ -51,7 +51,7 @@ from fdspec.kernels.devices.layout import (
     Z,
 )
 from fdspec.kernels.devices.tally import close_travel
-from fdspec.kernels.roots import NO_ROOT
+from fdspec.kernels.mathematics.polynomial_roots import NO_ROOT
 from fdspec.kernels.types import STICK
 
 
@@ -89,7 +89,8 @@ def bilinear_guard(frame, law, state, series, j, n, signs, events):
 def yield_from_rest(frame, state, j, sign):
     """Let the slider give way in this direction.  Returns whether the brace's force jumps.
 
-    Where friction falls the brace springs back at once, across corners if need be; what it loses is friction's.
+    Where friction falls the brace springs back at once, across corners if need be, and friction takes what it
+    loses.
     """
     touched = state.mode[TOUCHING, j] != 0
     state.mode[PHASE, j] = sign

@@ -6,7 +6,7 @@ sliding velocity jumps, and no force does.
 
 from __future__ import annotations
 
-from fdspec.jit import inner
+from fdspec.compiler.options import inner
 from fdspec.kernels.devices.guard import NOTHING, PASS, SLIP, STOP, first_pass, first_slip, first_stop
 from fdspec.kernels.devices.law import (
     constant_across,
@@ -34,7 +34,7 @@ from fdspec.kernels.devices.layout import (
     Z,
 )
 from fdspec.kernels.devices.tally import close_travel
-from fdspec.kernels.roots import NO_ROOT
+from fdspec.kernels.mathematics.polynomial_roots import NO_ROOT
 from fdspec.kernels.types import STICK
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fdspec.jit import inner
+from fdspec.compiler.options import inner
 from fdspec.kernels.devices.law import bearing_energy, deformation, stored_across
 from fdspec.kernels.devices.layout import (
     DAMPING,
@@ -24,8 +24,8 @@ from fdspec.kernels.devices.layout import (
     V,
     Z,
 )
-from fdspec.kernels.quadrature import NODES, WEIGHTS
-from fdspec.kernels.roots import value
+from fdspec.kernels.mathematics.polynomial_roots import value
+from fdspec.kernels.mathematics.quadrature import NODES, WEIGHTS
 
 
 @inner

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fdspec.jit import inner
+from fdspec.compiler.options import inner
 from fdspec.kernels.devices.layout import (
     BRACE,
     DAMPING,

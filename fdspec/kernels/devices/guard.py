@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import math
 
-from fdspec.jit import inner
+from fdspec.compiler.options import inner
 from fdspec.kernels.devices.law import bound_ahead, friction_limit
 from fdspec.kernels.devices.layout import PHASE, REACTION, REGION, TOUCHING, VANISHING, O, Z
-from fdspec.kernels.roots import NO_ROOT, first_root
+from fdspec.kernels.mathematics.polynomial_roots import NO_ROOT, first_root
 
 NOTHING = 0
 SLIP = 1

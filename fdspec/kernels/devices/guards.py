@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 
-from fdspec.jit import inner
+from fdspec.compiler.options import inner
 from fdspec.kernels.devices.bilinear import bilinear_guard
 from fdspec.kernels.devices.dashpot_brace import dashpot_guard
 from fdspec.kernels.devices.guard import root_of
 from fdspec.kernels.devices.layout import KIND, WITH_DASHPOT, WITH_MASS, WITHOUT_MASS, U
 from fdspec.kernels.devices.one_sided import one_sided_guard
 from fdspec.kernels.devices.plate import plate_guard
-from fdspec.kernels.roots import NO_ROOT
+from fdspec.kernels.mathematics.polynomial_roots import NO_ROOT
 
 
 @inner
@@ -36,8 +36,8 @@ def first_event(frame, law, state, series, n, instants, signs, events):
 
 
 @inner
-def first_collapse(frame, series, n, limits):
-    """Fraction of the step at which a drift reaches its limit, and the storey, from 0; NO_ROOT where none does."""
+def first_collapse(series, n, limits):
+    """Fraction of the step at which a drift reaches its limit, NO_ROOT where none does, and the storey."""
     first = NO_ROOT
     where = -1
     c = series.c

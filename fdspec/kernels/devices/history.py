@@ -13,7 +13,7 @@ import math
 import numpy as np
 from numba import types
 
-from fdspec.jit import entry, float1d, float2d, float3d, inner
+from fdspec.compiler.options import entry, float1d, float2d, float3d, inner
 from fdspec.kernels.devices.energy import input_work, stored_energy, viscous_work, work_of_gravity
 from fdspec.kernels.devices.expand import expand
 from fdspec.kernels.devices.guards import first_collapse, first_event
@@ -33,7 +33,7 @@ from fdspec.kernels.devices.output import state_at, write_traces
 from fdspec.kernels.devices.peaks import raise_peaks
 from fdspec.kernels.devices.resets import begin, change_modes
 from fdspec.kernels.devices.tally import close_travel
-from fdspec.kernels.taylor import TERMS, order_for
+from fdspec.kernels.frame.taylor import TERMS, order_for
 from fdspec.kernels.types import (
     COLLAPSED,
     NON_FINITE_STATE,
@@ -74,7 +74,7 @@ TOTALS = (
 
 @inner
 def log_events(state, was, at, log_times, log, logged):
-    """Write the changes of phase of one instant down, as far as there is room; returns how many there are now."""
+    """Write the changes of phase of one instant down, as far as there is room; return how many there are."""
     for j in range(was.size):
         if state.mode[PHASE, j] != was[j]:
             if logged < log_times.size:
@@ -147,7 +147,7 @@ def history(
             rise = slope * h
             expand(frame, law, state, n, h, acceleration, rise, series)
             x = first_event(frame, law, state, series, n, instants, signs, events)
-            falls, storey = first_collapse(frame, series, n, frame.drift_limit)
+            falls, storey = first_collapse(series, n, frame.drift_limit)
             collapses = falls <= min(x, 1.0)
             happens = x <= 1.0 and not collapses
             done = falls if collapses else (x if happens else 1.0)

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 
-from fdspec.jit import inner
+from fdspec.compiler.options import inner
 from fdspec.kernels.devices.layout import (
     FRICTION_GROWTH,
     KINETIC,
@@ -144,7 +144,7 @@ def bearing_energy(frame, j, region, offset):
 
 
 @inner
-def friction_work(frame, j, region, start, end):
+def friction_work(frame, j, start, end):
     """Energy (J) that friction in motion takes on the way between two offsets of one region."""
     work = frame.links[KINETIC, j] * abs(end - start)
     growth = frame.links[FRICTION_GROWTH, j]

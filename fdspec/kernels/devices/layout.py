@@ -21,7 +21,7 @@ LOWER = 1
 KIND = 2
 KINKED = 3
 PLACE_ROWS = 4
-"""Rows of ``places`` (4, L): the nodes a link joins, its kind, and whether its law has a corner at offset 0."""
+"""Rows of ``places`` (4, L): the nodes a link joins, its kind, whether its law has a corner at offset 0."""
 
 WITH_MASS = 0
 """A plate with mass on the brace: the offset obeys an equation of motion."""
@@ -30,7 +30,7 @@ WITHOUT_MASS = 1
 WITH_DASHPOT = 2
 """The same with a dashpot beside the brace's spring: the offset lags behind."""
 ONE_SIDED = 3
-"""A brace that works in one direction only, beyond its slack; the offset is the slack, which yielding adds to."""
+"""A brace that works in one direction only, beyond its slack, which is its offset; yielding adds to it."""
 
 MASS = 0
 STIFFNESS = 1

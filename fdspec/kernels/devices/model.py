@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from fdspec.jit import inner
+from fdspec.compiler.options import inner
 from fdspec.kernels.devices.law import constant_across, stiffness_across
 from fdspec.kernels.devices.layout import (
     DAMPING,
@@ -23,7 +23,7 @@ from fdspec.kernels.devices.layout import (
     WITH_MASS,
     WITHOUT_MASS,
 )
-from fdspec.kernels.frame import rate_of
+from fdspec.kernels.frame.model import rate_of
 from fdspec.kernels.types import STICK
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from fdspec.jit import inner
+from fdspec.compiler.options import inner
 from fdspec.kernels.devices.guard import NOTHING, SLIP, STOP, clear_leading, root_of, snap
 from fdspec.kernels.devices.law import deformation
 from fdspec.kernels.devices.layout import (
@@ -29,7 +29,7 @@ from fdspec.kernels.devices.layout import (
     Z,
 )
 from fdspec.kernels.devices.tally import close_travel
-from fdspec.kernels.roots import NO_ROOT
+from fdspec.kernels.mathematics.polynomial_roots import NO_ROOT
 
 SLACK = -1
 TAUT = 0
@@ -116,7 +116,7 @@ def change_one_sided(frame, state, j, event):
 
 @inner
 def begin_one_sided(frame, state, j):
-    """Set the mode that the state at the start asks for; a brace stretched beyond its strength has yielded."""
+    """Set the mode that the state at the start asks for; one stretched beyond its strength has yielded."""
     stretch = frame.links[DIRECTION, j] * deformation(frame, state, j) - state.sliders[O, j]
     excess = stretch - frame.links[STATIC, j] / frame.links[STIFFNESS, j]
     state.mode[PHASE, j] = SLACK if stretch < 0.0 else TAUT

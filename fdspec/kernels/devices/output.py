@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fdspec.jit import inner
+from fdspec.compiler.options import inner
 from fdspec.kernels.devices.energy import energy_in_bearing, kinetic_energy, strain_energy, work_of_gravity
 from fdspec.kernels.devices.layout import (
     BRACE,
@@ -22,7 +22,7 @@ from fdspec.kernels.devices.layout import (
 )
 from fdspec.kernels.devices.peaks import storey_shear
 from fdspec.kernels.devices.tally import travel_since, work_since
-from fdspec.kernels.roots import value
+from fdspec.kernels.mathematics.polynomial_roots import value
 from fdspec.kernels.types import STICK
 
 FLOOR_TRACES = ("displacement", "velocity", "acceleration", "storey_shear")

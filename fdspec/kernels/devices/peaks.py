@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fdspec.jit import inner
+from fdspec.compiler.options import inner
 from fdspec.kernels.devices.layout import (
     BESIDE,
     BRACE,
@@ -22,7 +22,7 @@ from fdspec.kernels.devices.layout import (
     V,
     Z,
 )
-from fdspec.kernels.roots import largest_magnitude
+from fdspec.kernels.mathematics.polynomial_roots import largest_magnitude
 from fdspec.kernels.types import STICK
 
 PEAK_ACCELERATION = 0
@@ -91,7 +91,7 @@ def raise_peaks(frame, state, series, n, h, x, peaks):
 
 @inner
 def storey_shear(frame, series, n, h, storey, c):
-    """Series of the force (N) that carries the inertia of all masses from this floor up, as shear below it."""
+    """Series of the shear (N) below a floor, which carries the inertia of all masses from there up."""
     for k in range(n):
         c[k] = 0.0
     for i in range(storey, frame.mass.size):

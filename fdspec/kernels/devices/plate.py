@@ -1,8 +1,8 @@
-"""A friction damper whose plate has mass: its guard, and its reset but for what its floor decides (`settle`)."""
+"""A friction damper whose plate has mass: its guard, and its reset but for what its floor decides."""
 
 from __future__ import annotations
 
-from fdspec.jit import inner
+from fdspec.compiler.options import inner
 from fdspec.kernels.devices.guard import NOTHING, PASS, SLIP, STOP, first_pass, first_slip, first_stop
 from fdspec.kernels.devices.law import bound_ahead, enter_region, meets_bearing, slides_freely
 from fdspec.kernels.devices.layout import (
@@ -21,7 +21,7 @@ from fdspec.kernels.devices.layout import (
     Z,
 )
 from fdspec.kernels.devices.tally import close_travel
-from fdspec.kernels.roots import NO_ROOT
+from fdspec.kernels.mathematics.polynomial_roots import NO_ROOT
 from fdspec.kernels.types import STICK
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fdspec.jit import inner
+from fdspec.compiler.options import inner
 from fdspec.kernels.devices.bilinear import begin_bilinear, pass_corner, stop_yielding, yield_from_rest
 from fdspec.kernels.devices.dashpot_brace import begin_dashpot, slip_from_rest, stop_slipping
 from fdspec.kernels.devices.expand import expand

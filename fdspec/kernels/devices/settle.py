@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 
-from fdspec.jit import inner
+from fdspec.compiler.options import inner
 from fdspec.kernels.devices.guard import ROUNDING
 from fdspec.kernels.devices.law import force_across, friction_limit
 from fdspec.kernels.devices.layout import (

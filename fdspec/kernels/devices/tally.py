@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from fdspec.jit import inner
+from fdspec.compiler.options import inner
 from fdspec.kernels.devices.law import friction_work
 from fdspec.kernels.devices.layout import (
     ANCHOR,
     KIND,
     ONE_SIDED,
     PHASE,
-    REGION,
     STATIC,
     TRAVEL,
     WORK,
@@ -25,7 +24,7 @@ def work_since(frame, state, j, offset):
         return 0.0
     if frame.places[KIND, j] == ONE_SIDED:
         return frame.links[STATIC, j] * (offset - state.tally[ANCHOR, j]) if state.mode[PHASE, j] > 0 else 0.0
-    return friction_work(frame, j, state.mode[REGION, j], state.tally[ANCHOR, j], offset)
+    return friction_work(frame, j, state.tally[ANCHOR, j], offset)
 
 
 @inner

@@ -1,0 +1,243 @@
+"""The engine for buildings with devices: hands the kernel its arrays and takes them back."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from fdspec.engines.trajectory import Course, DeviceCourse, FloatArray, IntArray, Span
+from fdspec.kernels.devices import layout as row
+from fdspec.kernels.devices.history import RADIANS, TOTALS, integrate
+from fdspec.kernels.devices.output import FLOOR_TRACES, LINK_TRACES, TOTAL_TRACES
+from fdspec.kernels.devices.peaks import (
+    PEAK_ACCELERATION,
+    PEAK_DISPLACEMENT,
+    PEAK_DRIFT,
+    PEAK_ROWS,
+    PEAK_SHEAR,
+    PEAK_VELOCITY,
+)
+from fdspec.model.building import Building
+from fdspec.model.device_frame import DeviceFrame
+from fdspec.model.motion import GroundMotion
+
+
+class Outcome(NamedTuple):
+    """What one run of the kernel leaves."""
+
+    floors: FloatArray
+    sliders: FloatArray
+    mode: IntArray
+    tally: FloatArray
+    peaks: FloatArray
+    totals: dict[str, float]
+
+
+class Traces(NamedTuple):
+    """Room for the course in time."""
+
+    log_times: FloatArray
+    log: IntArray
+    floors: FloatArray
+    links: FloatArray
+    energies: FloatArray
+
+
+def _room(changes: int, outputs: int, size: int, links: int) -> Traces:
+    return Traces(
+        np.empty(changes),
+        np.empty((2, changes), np.int64),
+        np.full((outputs, len(FLOOR_TRACES), size), np.nan),
+        np.full((outputs, len(LINK_TRACES), links), np.nan),
+        np.full((outputs, len(TOTAL_TRACES)), np.nan),
+    )
+
+
+def run(
+    frame: DeviceFrame,
+    motion: GroundMotion,
+    span: Span,
+    start: FloatArray,
+    traces: Traces | None = None,
+    radians: float = RADIANS,
+    extra_terms: int = 0,
+) -> Outcome:
+    """Integrate a frame with devices once.
+
+    start: displacement and velocity of floors and braces, (2, 2, N), m and m/s.  radians: longest phase of a
+    step; extra_terms: terms of the series beyond those that rounding leaves; neither moves a result.
+    """
+    size = frame.mass.size - 1
+    links = frame.places.shape[1]
+    floors = np.zeros((2, size + 1))
+    floors[:, 1:] = start[:, 0]
+    sliders = np.zeros((2, links))
+    for storey in np.flatnonzero(frame.dampers >= 0):
+        j = frame.dampers[storey]
+        sliders[0, j] = start[0, 0, storey] - start[0, 1, storey]
+        if frame.places[row.KIND, j] == row.WITH_MASS:
+            sliders[1, j] = start[1, 0, storey] - start[1, 1, storey]
+    return _run(frame, motion, span, floors, sliders, traces, radians, extra_terms)
+
+
+def _run(
+    frame: DeviceFrame,
+    motion: GroundMotion,
+    span: Span,
+    floors: FloatArray,
+    sliders: FloatArray,
+    traces: Traces | None,
+    radians: float,
+    extra_terms: int,
+) -> Outcome:
+    size = frame.mass.size - 1
+    links = frame.places.shape[1]
+    mode = np.zeros((row.MODE_ROWS, links), np.int64)
+    tally = np.empty((row.TALLY_ROWS, links))
+    peaks = np.empty((PEAK_ROWS, size))
+    totals = np.empty(len(TOTALS))
+    room = _room(0, 0, size, links) if traces is None else traces
+    integrate(
+        *frame[:8],
+        motion.acceleration,
+        motion.dt,
+        span.free_steps,
+        radians,
+        extra_terms,
+        False,
+        floors,
+        sliders,
+        mode,
+        room.log_times,
+        room.log,
+        span.dt_out,
+        room.floors,
+        room.links,
+        room.energies,
+        tally,
+        peaks,
+        totals,
+    )
+    return Outcome(floors, sliders, mode, tally, peaks, dict(zip(TOTALS, totals.tolist(), strict=True)))
+
+
+def integrate_devices(
+    building: Building,
+    motion: GroundMotion,
+    span: Span,
+    start: FloatArray,
+    radians: float = RADIANS,
+    extra_terms: int = 0,
+) -> Course:
+    """Integrate a building with devices; arguments as for `run`."""
+    frame = building.device_frame
+    size = building.n_storeys
+    links = frame.places.shape[1]
+    # Twice: how many changes of phase there are is known at the end.
+    first = run(frame, motion, span, start, None, radians, extra_terms)
+    traces = _room(int(first.totals["events"]), span.outputs, size, links)
+    outcome = run(frame, motion, span, start, traces, radians, extra_terms)
+    return _course(building, frame, traces, outcome)
+
+
+def _of_storeys(values: FloatArray, places: IntArray, absent: float = 0.0) -> FloatArray:
+    """Take, along the last axis, what belongs to each storey's damper or columns."""
+    taken = np.full((*values.shape[:-1], places.size), absent)
+    there = places >= 0
+    taken[..., there] = values[..., places[there]]
+    return taken
+
+
+def _course(building: Building, frame: DeviceFrame, traces: Traces, outcome: Outcome) -> Course:
+    floor = {name: traces.floors[:, i] for i, name in enumerate(FLOOR_TRACES)}
+    link = {name: traces.links[:, i] for i, name in enumerate(LINK_TRACES)}
+    energy = {name: traces.energies[:, i] for i, name in enumerate(TOTAL_TRACES)}
+    dampers, columns, others = frame.dampers, frame.columns, frame.others
+    storey_of = np.full(frame.places.shape[1], -1)
+    storey_of[dampers[dampers >= 0]] = np.flatnonzero(dampers >= 0)
+    ours = storey_of[traces.log[0]] >= 0
+    friction = _of_storeys(link["work"], dampers)
+    tally, peaks, totals = outcome.tally, outcome.peaks, outcome.totals
+    drift = np.diff(floor["displacement"], axis=1, prepend=0.0)
+    elastic = np.where(columns >= 0, building.hardening_ratio, 1.0) * frame_stiffness(building)
+    column_shear = elastic * drift + _of_storeys(link["force"], columns)
+    can_yield = columns >= 0
+    peak_deformation = np.where(can_yield, peaks[PEAK_DRIFT], 0.0)
+    storey = int(totals["collapse_storey"])
+    devices = DeviceCourse(
+        column_shear=column_shear,
+        plastic_deformation=_of_storeys(link["offset"], columns),
+        kinetic_energy=energy["kinetic_energy"],
+        strain_energy=energy["strain_energy"],
+        bearing_energy=energy["bearing_energy"],
+        gravity_energy=energy["gravity_energy"],
+        column_work=_of_storeys(link["work"], columns),
+        link_slip=link["offset"][:, others],
+        link_force=link["force"][:, others],
+        link_phase=np.nan_to_num(link["phase"][:, others]).astype(np.int64),
+        link_work=link["work"][:, others],
+        peak_slip=_of_storeys(tally[row.PEAK_SLIP], dampers),
+        residual_slip=_of_storeys(outcome.sliders[0], dampers),
+        peak_brace_force=_of_storeys(tally[row.PEAK_FORCE], dampers),
+        peak_column_shear=np.where(
+            can_yield, _of_storeys(tally[row.PEAK_FORCE], columns), elastic * peaks[PEAK_DRIFT]
+        ),
+        peak_column_deformation=peak_deformation,
+        plastic_drift=_of_storeys(outcome.sliders[0], columns),
+        ductility=peak_deformation * elastic_stiffness_over_strength(building),
+        column_energy=_of_storeys(tally[row.WORK], columns),
+        column_events=_of_storeys(tally[row.EVENTS], columns).astype(np.int64),
+        slot_events=_of_storeys(tally[row.CONTACTS], dampers).astype(np.int64),
+        peak_link_slip=tally[row.PEAK_SLIP, others],
+        residual_link_slip=outcome.sliders[0, others],
+        peak_link_force=tally[row.PEAK_FORCE, others],
+        link_energy=tally[row.WORK, others],
+        link_events=tally[row.EVENTS, others].astype(np.int64),
+        link_contacts=tally[row.CONTACTS, others].astype(np.int64),
+        collapse_storey=storey + 1,
+        collapse_time=totals["collapse_time"],
+        collapse_drift=float(frame.drift_limit[storey]) if storey >= 0 else np.inf,
+    )
+    displacement, velocity = floor["displacement"], floor["velocity"]
+    slip_work = _of_storeys(tally[row.WORK], dampers)
+    return Course(
+        displacement=np.ascontiguousarray(displacement),
+        velocity=np.ascontiguousarray(velocity),
+        acceleration=np.ascontiguousarray(floor["acceleration"]),
+        brace_displacement=displacement - _of_storeys(link["offset"], dampers),
+        brace_velocity=velocity - _of_storeys(link["sliding_velocity"], dampers),
+        friction_force=_of_storeys(link["friction_force"], dampers),
+        phase=np.nan_to_num(_of_storeys(link["phase"], dampers)).astype(np.int64),
+        slip_travel=_of_storeys(link["travel"], dampers),
+        storey_friction_energy=friction,
+        storey_shear=np.ascontiguousarray(floor["storey_shear"]),
+        input_energy=energy["input_energy"],
+        viscous_energy=energy["viscous_energy"],
+        transition_time=traces.log_times[ours],
+        transition_storey=storey_of[traces.log[0]][ours],
+        transition_phase=traces.log[1][ours],
+        peak_acceleration=peaks[PEAK_ACCELERATION],
+        peak_displacement=peaks[PEAK_DISPLACEMENT],
+        peak_velocity=peaks[PEAK_VELOCITY],
+        peak_drift=peaks[PEAK_DRIFT],
+        peak_storey_shear=peaks[PEAK_SHEAR],
+        peak_base_shear=float(peaks[PEAK_SHEAR, 0]),
+        residual_displacement=outcome.floors[0, 1:].copy(),
+        dissipated_energy=float(slip_work.sum() + tally[row.WORK, others].sum()),
+        energy_error=totals["energy_error"],
+        status=int(totals["status"]),
+        devices=devices,
+    )
+
+
+def frame_stiffness(building: Building) -> FloatArray:
+    """Stiffness of each storey's columns, N/m, (N,); 0 where the frame is a matrix."""
+    if building.storey_stiffness.ndim == 2:
+        return np.zeros(building.n_storeys)
+    return building.storey_stiffness
+
+
+def elastic_stiffness_over_strength(building: Building) -> FloatArray:
+    """One over each storey's yield drift, 1/m, (N,); 0 where the columns stay elastic."""
+    return frame_stiffness(building) / building.yield_shear
