@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from fdspec.choice.recommendation import choose
     from fdspec.model.building import Building
     from fdspec.model.damping import DampingMatrix, ModalDamping, RayleighDamping
+    from fdspec.model.link import Link, TensionBrace
     from fdspec.model.motion import GroundMotion
     from fdspec.records import load_record, read_record
     from fdspec.runs.simulate import simulate
@@ -26,9 +27,11 @@ __all__ = [
     "Building",
     "DampingMatrix",
     "GroundMotion",
+    "Link",
     "ModalDamping",
     "RayleighDamping",
     "Study",
+    "TensionBrace",
     "__version__",
     "best_pretension",
     "choose",
@@ -47,9 +50,11 @@ _HOME = {
     "Building": "model.building",
     "DampingMatrix": "model.damping",
     "GroundMotion": "model.motion",
+    "Link": "model.link",
     "ModalDamping": "model.damping",
     "RayleighDamping": "model.damping",
     "Study": "runs.study",
+    "TensionBrace": "model.link",
     "best_pretension": "choice",
     "choose": "choice",
     "export": "store",

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from fdspec.engines.trajectory import Course, FloatArray, Span
+from fdspec.engines.trajectory import Course, DeviceCourse, FloatArray, Span
 from fdspec.errors import IntegrationError, InvalidInput
 from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.model.building import Building
@@ -90,6 +90,11 @@ def simulate(
     )
     other = chosen_method(method)
     if other is not None:
+        if building.has_devices:
+            raise InvalidInput(
+                f"method {other.name!r} knows frames, braces and friction alone; yielding columns, slots, "
+                "gravity and links need the exact method"
+            )
         course = other.integrate(building, motion, span, start)
     elif building.has_devices:
         from fdspec.engines.devices import integrate_devices
@@ -236,6 +241,10 @@ def _dataset(
         "kinetic_slip_force": ("storey", building.kinetic_slip_force),
         **{name: ((), value) for name, value in told.items()},
     }
+    if course.devices is not None:
+        variables |= _of_devices(building, course.devices, course.peak_drift)
+        if building.links:
+            coords["link"] = [link.name or f"link {i}" for i, link in enumerate(building.links, start=1)]
     dataset = xr.Dataset(variables, coords=coords)
     dataset.attrs = provenance(
         "Response history of a building with friction dampers",
@@ -251,3 +260,48 @@ def _dataset(
         command="fdspec.simulate",
     )
     return describe(dataset, HISTORY)
+
+
+def _of_devices(building: Building, devices: DeviceCourse, peak_drift: FloatArray) -> dict[str, Any]:
+    """Return the variables that only buildings with devices have."""
+    each, storey = ("time", "storey"), "storey"
+    variables: dict[str, Any] = {
+        "kinetic_energy": ("time", devices.kinetic_energy),
+        "strain_energy": ("time", devices.strain_energy),
+        "bearing_energy": ("time", devices.bearing_energy),
+        "gravity_energy": ("time", devices.gravity_energy),
+        "yielding_energy": ("time", devices.column_work.sum(axis=1)),
+        "links_energy": ("time", devices.link_work.sum(axis=1)),
+        "column_shear": (each, devices.column_shear),
+        "plastic_deformation": (each, devices.plastic_deformation),
+    }
+    for name in (
+        "peak_slip",
+        "residual_slip",
+        "peak_brace_force",
+        "peak_column_shear",
+        "peak_column_deformation",
+        "plastic_drift",
+        "ductility",
+        "column_energy",
+        "column_events",
+        "slot_events",
+    ):
+        variables[name] = (storey, getattr(devices, name))
+    if not np.isnan(building.storey_height).any():
+        variables["peak_drift_ratio"] = (storey, peak_drift / building.storey_height)
+    if building.links:
+        over_time, link = ("time", "link"), "link"
+        variables["link_slip"] = (over_time, devices.link_slip)
+        variables["link_force"] = (over_time, devices.link_force)
+        variables["link_phase"] = (over_time, devices.link_phase.astype(np.int8))
+        for name in (
+            "peak_link_slip",
+            "residual_link_slip",
+            "peak_link_force",
+            "link_energy",
+            "link_events",
+            "link_contacts",
+        ):
+            variables[name] = (link, getattr(devices, name))
+    return variables
