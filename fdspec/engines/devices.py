@@ -73,6 +73,7 @@ def run(
     floors = np.zeros((2, size + 1))
     floors[:, 1:] = start[:, 0]
     sliders = np.zeros((2, links))
+    sliders[0] = frame.fastened
     for storey in np.flatnonzero(frame.dampers >= 0):
         j = frame.dampers[storey]
         sliders[0, j] = start[0, 0, storey] - start[0, 1, storey]

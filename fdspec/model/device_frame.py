@@ -38,6 +38,8 @@ class DeviceFrame(NamedTuple):
     """(N,) place of the yielding part of each storey's columns, -1 where they stay elastic."""
     others: IntArray
     """(M,) places of the building's `links`, in their order."""
+    fastened: Array
+    """(L,) slip offset of each link in the frame at rest, m: the slack of a one-sided brace."""
 
 
 class Devices(Protocol):
@@ -118,6 +120,8 @@ def device_frame(building: Devices, stiffness: Linkage, damping: Linkage) -> Dev
         place, numbers = _numbers(link)
         places.append(place)
         links.append(numbers)
+    fastened = np.zeros(len(links))
+    fastened[others] = [link.slack if isinstance(link, TensionBrace) else 0.0 for link in building.links]
     table = np.zeros((row.LINK_ROWS, len(links)))
     for j, numbers in enumerate(links):
         for at, value in numbers.items():
@@ -134,6 +138,7 @@ def device_frame(building: Devices, stiffness: Linkage, damping: Linkage) -> Dev
         dampers,
         columns,
         others,
+        read_only(fastened),
     )
 
 

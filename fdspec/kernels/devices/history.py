@@ -21,6 +21,7 @@ from fdspec.kernels.devices.layout import (
     PHASE,
     TOUCHING,
     VANISHING,
+    WORK,
     Frame,
     Law,
     Series,
@@ -117,9 +118,11 @@ def history(
 ):
     """Integrate one history: arguments as in :func:`integrate`, and zeroed room to work in."""
     links = frame.places.shape[1]
-    stored = stored_energy(frame, state) - work_of_gravity(frame, state)
     logged = 0
     begin(frame, law, state, series, roles, uneasy, was, resumes)
+    stored = stored_energy(frame, state) - work_of_gravity(frame, state)
+    for j in range(links):
+        stored += state.tally[WORK, j]  # what gave way at once was stored before
     if not resumes:
         logged = log_events(state, was, 0.0, log_times, log, logged)
     rate = fastest_rate(frame, law, state, load)
@@ -210,7 +213,7 @@ def history(
     dissipated = 0.0
     for j in range(links):
         close_travel(frame, state, j)
-        dissipated += state.tally[2, j]
+        dissipated += state.tally[WORK, j]
     gravity = work_of_gravity(frame, state)
     balance = work_in + stored + gravity - stored_energy(frame, state) - viscous - dissipated
     scale = largest_work + abs(stored)

@@ -3,7 +3,13 @@
 from __future__ import annotations
 
 from fdspec.compiler.options import inner
-from fdspec.kernels.devices.bilinear import begin_bilinear, pass_corner, stop_yielding, yield_from_rest
+from fdspec.kernels.devices.bilinear import (
+    begin_bilinear,
+    pass_corner,
+    spring_back,
+    stop_yielding,
+    yield_from_rest,
+)
 from fdspec.kernels.devices.dashpot_brace import begin_dashpot, slip_from_rest, stop_slipping
 from fdspec.kernels.devices.expand import expand
 from fdspec.kernels.devices.guard import PASS, SLIP, STOP
@@ -13,6 +19,9 @@ from fdspec.kernels.devices.layout import (
     EVENTS,
     KIND,
     LOWER,
+    ONE_SIDED,
+    ORIGIN,
+    PEAK_SLIP,
     PHASE,
     REGION,
     TOUCHING,
@@ -115,7 +124,11 @@ def settle_floors(frame, law, state, series, roles, uneasy):
 def begin(frame, law, state, series, roles, uneasy, was, resumes):
     """Set the modes that the state at the start asks for, unless they are given."""
     for j in range(frame.places.shape[1]):
-        state.tally[ANCHOR, j] = state.sliders[O, j]
+        offset = state.sliders[O, j]
+        state.tally[ANCHOR, j] = offset
+        if frame.places[KIND, j] == ONE_SIDED:
+            state.tally[ORIGIN, j] = offset
+        state.tally[PEAK_SLIP, j] = abs(offset - state.tally[ORIGIN, j])
     if resumes:
         set_law(frame, law, state)
         return
@@ -140,7 +153,9 @@ def begin(frame, law, state, series, roles, uneasy, was, resumes):
         elif kind == WITHOUT_MASS:
             gives_way = begin_bilinear(frame, state, j)
             if gives_way != 0:
-                yield_from_rest(frame, state, j, gives_way)
+                # Not at its limit but beyond: it springs back whether or not friction falls.
+                if not yield_from_rest(frame, state, j, gives_way):
+                    spring_back(frame, state, j, gives_way)
         elif kind == WITH_DASHPOT:
             gives_way = begin_dashpot(frame, state, j)
             if gives_way != 0:
