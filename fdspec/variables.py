@@ -124,6 +124,25 @@ def response_variables(grid: tuple[str, ...], storey: tuple[str, ...] = ()) -> t
     )
 
 
+def demand_variables(each: tuple[str, ...]) -> tuple[Variable, ...]:
+    """Return what only buildings with devices have of each storey."""
+    return (
+        Variable("peak_slip", each, "m", "largest slip of the damper from where it was fastened"),
+        Variable("residual_slip", each, "m", "final slip offset of the damper"),
+        Variable("peak_brace_force", each, "N", "peak force in the brace"),
+        Variable("peak_column_shear", each, "N", "peak shear force of the columns, without P-delta"),
+        Variable("peak_column_deformation", each, "m", "peak drift of the columns that can yield"),
+        Variable("plastic_drift", each, "m", "final plastic drift of the columns"),
+        Variable("ductility", each, "1", "peak drift over yield drift of the columns"),
+        Variable("column_energy", each, "J", "energy dissipated by yielding of the columns"),
+        Variable("column_events", each, "1", "number of times the columns yielded or unloaded", "int64"),
+        Variable(
+            "slot_events", each, "1", "number of contacts and releases at the ends of the slot", "int64"
+        ),
+        Variable("peak_drift_ratio", each, "1", "peak drift over the height of the storey"),
+    )
+
+
 def _variables_of_indices() -> tuple[Variable, ...]:
     """Return what performance indices need beside the responses, the bare frame's share included."""
     bare, braced = ("record", "period"), ("record", "stiffness_ratio", "period")
@@ -156,6 +175,7 @@ CUBE: Final[Registry] = registry_of(
         Variable("kinetic_slip_force", ("pretension",), "N", "friction force of the damper while it slips"),
     ),
     response_variables(STUDY_DIMS),
+    demand_variables(STUDY_DIMS),
     (
         Variable(
             "elastic_acceleration",
@@ -241,28 +261,9 @@ BUILDING_CUBE: Final[Registry] = registry_of(
             "peak absolute acceleration of the floor with dampers that never slip",
         ),
     ),
+    demand_variables(_EACH_STOREY),
 )
 """The variables of a sweep over buildings, dims (record, building, stiffness_scale, slip_scale, storey)."""
-
-
-def demand_variables(each: tuple[str, ...]) -> tuple[Variable, ...]:
-    """Return what only buildings with devices have of each storey."""
-    return (
-        Variable("peak_slip", each, "m", "largest slip of the damper from where it was fastened"),
-        Variable("residual_slip", each, "m", "final slip offset of the damper"),
-        Variable("peak_brace_force", each, "N", "peak force in the brace"),
-        Variable("peak_column_shear", each, "N", "peak shear force of the columns, without P-delta"),
-        Variable("peak_column_deformation", each, "m", "peak drift of the columns that can yield"),
-        Variable("plastic_drift", each, "m", "final plastic drift of the columns"),
-        Variable("ductility", each, "1", "peak drift over yield drift of the columns"),
-        Variable("column_energy", each, "J", "energy dissipated by yielding of the columns"),
-        Variable("column_events", each, "1", "number of times the columns yielded or unloaded", "int64"),
-        Variable(
-            "slot_events", each, "1", "number of contacts and releases at the ends of the slot", "int64"
-        ),
-        Variable("peak_drift_ratio", each, "1", "peak drift over the height of the storey"),
-    )
-
 
 _OVER_TIME: Final = ("time",)
 _EACH: Final = ("time", "storey")

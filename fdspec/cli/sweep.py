@@ -152,7 +152,7 @@ def _plan(study: Study, path: Path) -> str:
     import numpy as np
 
     from fdspec.runs.cost import measured
-    from fdspec.runs.sweep import OUTPUTS
+    from fdspec.runs.sweep import usual_outputs
     from fdspec.scheduling.threads import cores
     from fdspec.variables import CUBE
 
@@ -165,7 +165,7 @@ def _plan(study: Study, path: Path) -> str:
     lengths = {"record": len(motions), "stiffness_ratio": n_sr, "pretension": n_f, "period": n_t}
     bytes_of = {
         name: math.prod(lengths[dim] for dim in CUBE[name].dims) * np.dtype(CUBE[name].dtype).itemsize
-        for name in study.outputs or OUTPUTS
+        for name in study.outputs or usual_outputs(study.grid)
     }
     return "\n".join(
         (

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fdspec.engines.trajectory import Course, DeviceCourse, FloatArray, IntArray, Span
+from fdspec.engines.trajectory import CourseWithDevices, DeviceCourse, FloatArray, IntArray, Span
 from fdspec.kernels.devices import layout as row
 from fdspec.kernels.devices.history import RADIANS, TOTALS, integrate
 from fdspec.kernels.devices.output import FLOOR_TRACES, LINK_TRACES, TOTAL_TRACES
@@ -21,6 +21,10 @@ from fdspec.kernels.devices.peaks import (
 from fdspec.model.building import Building
 from fdspec.model.device_frame import DeviceFrame
 from fdspec.model.motion import GroundMotion
+from fdspec.variables import demand_variables
+
+DEMANDS = tuple(variable.name for variable in demand_variables(()))
+"""What only the results of buildings with devices have of each storey."""
 
 
 class Outcome(NamedTuple):
@@ -130,7 +134,7 @@ def integrate_devices(
     start: FloatArray,
     radians: float = RADIANS,
     extra_terms: int = 0,
-) -> Course:
+) -> CourseWithDevices:
     """Integrate a building with devices; arguments as for `run`."""
     frame = building.device_frame
     size = building.n_storeys
@@ -150,7 +154,74 @@ def _of_storeys(values: FloatArray, places: IntArray, absent: float = 0.0) -> Fl
     return taken
 
 
-def _course(building: Building, frame: DeviceFrame, traces: Traces, outcome: Outcome) -> Course:
+def peaks_of(
+    building: Building, motion: GroundMotion, free_steps: int = 0
+) -> tuple[dict[str, FloatArray], dict[str, float]]:
+    """Integrate a building from rest, without its course in time.
+
+    Returns what each storey has of its own by name, (N,), and what the building has: ``transitions``,
+    energies, ``energy_error``, ``status``.
+    """
+    frame = building.device_frame
+    span = Span(free_steps, motion.dt, 1)
+    outcome = run(frame, motion, span, np.zeros((2, 2, building.n_storeys)))
+    storeys = storey_results(building, frame, outcome)
+    totals = {
+        "transitions": float(storeys["storey_transitions"].sum()),
+        "dissipated_energy": _friction(frame, outcome),
+        "viscous_energy": outcome.totals["viscous_energy"],
+        "input_energy": outcome.totals["input_energy"],
+        "energy_error": outcome.totals["energy_error"],
+        "status": outcome.totals["status"],
+    }
+    return storeys, totals
+
+
+def _friction(frame: DeviceFrame, outcome: Outcome) -> float:
+    """Energy (J) dissipated in all dampers and links."""
+    work = outcome.tally[row.WORK]
+    return float(work.sum() - work[frame.columns[frame.columns >= 0]].sum())
+
+
+def storey_results(building: Building, frame: DeviceFrame, outcome: Outcome) -> dict[str, FloatArray]:
+    """Return what each storey has of its own at the end of a history, by name, (N,)."""
+    dampers, columns = frame.dampers, frame.columns
+    tally, peaks = outcome.tally, outcome.peaks
+    displacement = outcome.floors[0, 1:].copy()
+    offset = _of_storeys(outcome.sliders[0], dampers)
+    can_yield = columns >= 0
+    peak_deformation = np.where(can_yield, peaks[PEAK_DRIFT], 0.0)
+    share = np.where(can_yield, building.hardening_ratio, 1.0)
+    elastic_shear = share * frame_stiffness(building) * peaks[PEAK_DRIFT]
+    return {
+        "peak_acceleration": peaks[PEAK_ACCELERATION],
+        "peak_displacement": peaks[PEAK_DISPLACEMENT],
+        "peak_velocity": peaks[PEAK_VELOCITY],
+        "peak_drift": peaks[PEAK_DRIFT],
+        "peak_storey_shear": peaks[PEAK_SHEAR],
+        "peak_brace_displacement": np.where(
+            dampers >= 0, _of_storeys(tally[row.PEAK_TOP], dampers), peaks[PEAK_DISPLACEMENT]
+        ),
+        "residual_displacement": displacement,
+        "residual_brace_displacement": displacement - offset,
+        "slip_travel": _of_storeys(tally[row.TRAVEL], dampers),
+        "storey_transitions": _of_storeys(tally[row.EVENTS], dampers),
+        "storey_friction_energy": _of_storeys(tally[row.WORK], dampers),
+        "peak_slip": _of_storeys(tally[row.PEAK_SLIP], dampers),
+        "residual_slip": offset,
+        "peak_brace_force": _of_storeys(tally[row.PEAK_FORCE], dampers),
+        "peak_column_shear": np.where(can_yield, _of_storeys(tally[row.PEAK_FORCE], columns), elastic_shear),
+        "peak_column_deformation": peak_deformation,
+        "plastic_drift": _of_storeys(outcome.sliders[0], columns),
+        "ductility": peak_deformation * frame_stiffness(building) / building.yield_shear,
+        "column_energy": _of_storeys(tally[row.WORK], columns),
+        "column_events": _of_storeys(tally[row.EVENTS], columns),
+        "slot_events": _of_storeys(tally[row.CONTACTS], dampers),
+        "peak_drift_ratio": peaks[PEAK_DRIFT] / building.storey_height,
+    }
+
+
+def _course(building: Building, frame: DeviceFrame, traces: Traces, outcome: Outcome) -> CourseWithDevices:
     floor = {name: traces.floors[:, i] for i, name in enumerate(FLOOR_TRACES)}
     link = {name: traces.links[:, i] for i, name in enumerate(LINK_TRACES)}
     energy = {name: traces.energies[:, i] for i, name in enumerate(TOTAL_TRACES)}
@@ -158,16 +229,13 @@ def _course(building: Building, frame: DeviceFrame, traces: Traces, outcome: Out
     storey_of = np.full(frame.places.shape[1], -1)
     storey_of[dampers[dampers >= 0]] = np.flatnonzero(dampers >= 0)
     ours = storey_of[traces.log[0]] >= 0
-    friction = _of_storeys(link["work"], dampers)
-    tally, peaks, totals = outcome.tally, outcome.peaks, outcome.totals
+    tally, totals = outcome.tally, outcome.totals
+    result = storey_results(building, frame, outcome)
     drift = np.diff(floor["displacement"], axis=1, prepend=0.0)
     elastic = np.where(columns >= 0, building.hardening_ratio, 1.0) * frame_stiffness(building)
-    column_shear = elastic * drift + _of_storeys(link["force"], columns)
-    can_yield = columns >= 0
-    peak_deformation = np.where(can_yield, peaks[PEAK_DRIFT], 0.0)
     storey = int(totals["collapse_storey"])
     devices = DeviceCourse(
-        column_shear=column_shear,
+        column_shear=elastic * drift + _of_storeys(link["force"], columns),
         plastic_deformation=_of_storeys(link["offset"], columns),
         kinetic_energy=energy["kinetic_energy"],
         strain_energy=energy["strain_energy"],
@@ -178,18 +246,7 @@ def _course(building: Building, frame: DeviceFrame, traces: Traces, outcome: Out
         link_force=link["force"][:, others],
         link_phase=np.nan_to_num(link["phase"][:, others]).astype(np.int64),
         link_work=link["work"][:, others],
-        peak_slip=_of_storeys(tally[row.PEAK_SLIP], dampers),
-        residual_slip=_of_storeys(outcome.sliders[0], dampers),
-        peak_brace_force=_of_storeys(tally[row.PEAK_FORCE], dampers),
-        peak_column_shear=np.where(
-            can_yield, _of_storeys(tally[row.PEAK_FORCE], columns), elastic * peaks[PEAK_DRIFT]
-        ),
-        peak_column_deformation=peak_deformation,
-        plastic_drift=_of_storeys(outcome.sliders[0], columns),
-        ductility=peak_deformation * elastic_stiffness_over_strength(building),
-        column_energy=_of_storeys(tally[row.WORK], columns),
-        column_events=_of_storeys(tally[row.EVENTS], columns).astype(np.int64),
-        slot_events=_of_storeys(tally[row.CONTACTS], dampers).astype(np.int64),
+        storeys={name: result[name] for name in DEMANDS},
         peak_link_slip=tally[row.PEAK_SLIP, others],
         residual_link_slip=outcome.sliders[0, others],
         peak_link_force=tally[row.PEAK_FORCE, others],
@@ -201,8 +258,7 @@ def _course(building: Building, frame: DeviceFrame, traces: Traces, outcome: Out
         collapse_drift=float(frame.drift_limit[storey]) if storey >= 0 else np.inf,
     )
     displacement, velocity = floor["displacement"], floor["velocity"]
-    slip_work = _of_storeys(tally[row.WORK], dampers)
-    return Course(
+    return CourseWithDevices(
         displacement=np.ascontiguousarray(displacement),
         velocity=np.ascontiguousarray(velocity),
         acceleration=np.ascontiguousarray(floor["acceleration"]),
@@ -211,21 +267,21 @@ def _course(building: Building, frame: DeviceFrame, traces: Traces, outcome: Out
         friction_force=_of_storeys(link["friction_force"], dampers),
         phase=np.nan_to_num(_of_storeys(link["phase"], dampers)).astype(np.int64),
         slip_travel=_of_storeys(link["travel"], dampers),
-        storey_friction_energy=friction,
+        storey_friction_energy=_of_storeys(link["work"], dampers),
         storey_shear=np.ascontiguousarray(floor["storey_shear"]),
         input_energy=energy["input_energy"],
         viscous_energy=energy["viscous_energy"],
         transition_time=traces.log_times[ours],
         transition_storey=storey_of[traces.log[0]][ours],
         transition_phase=traces.log[1][ours],
-        peak_acceleration=peaks[PEAK_ACCELERATION],
-        peak_displacement=peaks[PEAK_DISPLACEMENT],
-        peak_velocity=peaks[PEAK_VELOCITY],
-        peak_drift=peaks[PEAK_DRIFT],
-        peak_storey_shear=peaks[PEAK_SHEAR],
-        peak_base_shear=float(peaks[PEAK_SHEAR, 0]),
-        residual_displacement=outcome.floors[0, 1:].copy(),
-        dissipated_energy=float(slip_work.sum() + tally[row.WORK, others].sum()),
+        peak_acceleration=result["peak_acceleration"],
+        peak_displacement=result["peak_displacement"],
+        peak_velocity=result["peak_velocity"],
+        peak_drift=result["peak_drift"],
+        peak_storey_shear=result["peak_storey_shear"],
+        peak_base_shear=float(result["peak_storey_shear"][0]),
+        residual_displacement=result["residual_displacement"],
+        dissipated_energy=_friction(frame, outcome),
         energy_error=totals["energy_error"],
         status=int(totals["status"]),
         devices=devices,
@@ -237,8 +293,3 @@ def frame_stiffness(building: Building) -> FloatArray:
     if building.storey_stiffness.ndim == 2:
         return np.zeros(building.n_storeys)
     return building.storey_stiffness
-
-
-def elastic_stiffness_over_strength(building: Building) -> FloatArray:
-    """One over each storey's yield drift, 1/m, (N,); 0 where the columns stay elastic."""
-    return frame_stiffness(building) / building.yield_shear

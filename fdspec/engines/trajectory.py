@@ -48,8 +48,6 @@ class Course:
     dissipated_energy: float
     energy_error: float
     status: int
-    devices: DeviceCourse | None = None
-    """What only buildings with devices have."""
 
 
 @dataclass(frozen=True)
@@ -68,16 +66,8 @@ class DeviceCourse:
     link_force: FloatArray
     link_phase: IntArray
     link_work: FloatArray
-    peak_slip: FloatArray
-    residual_slip: FloatArray
-    peak_brace_force: FloatArray
-    peak_column_shear: FloatArray
-    peak_column_deformation: FloatArray
-    plastic_drift: FloatArray
-    ductility: FloatArray
-    column_energy: FloatArray
-    column_events: IntArray
-    slot_events: IntArray
+    storeys: dict[str, FloatArray]
+    """What each storey has of its own at the end, by name: `fdspec.variables.demand_variables`."""
     peak_link_slip: FloatArray
     residual_link_slip: FloatArray
     peak_link_force: FloatArray
@@ -90,6 +80,13 @@ class DeviceCourse:
     """s"""
     collapse_drift: float
     """That limit, m."""
+
+
+@dataclass(frozen=True)
+class CourseWithDevices(Course):
+    """One history of a building with devices."""
+
+    devices: DeviceCourse
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from dataclasses import fields as dataclass_fields
 from functools import cached_property
 from typing import Any, TypedDict, Unpack
 
@@ -377,6 +378,24 @@ class Building:
             brace_damping,
             **devices,
         )
+
+    def with_changes(self, **changes: Any) -> Building:
+        """Return this building with other values of some of its parameters, as `Building` takes them.
+
+        Examples
+        --------
+        >>> frame = Building.single_storey(period=0.5, stiffness_ratio=4, slip_force=100e3)
+        >>> frame.with_changes(slip_force=50e3, kinetic_slip_force=40e3).slip_force
+        array([50000.])
+        """
+        given = {field.name: getattr(self, field.name) for field in dataclass_fields(self)}
+        unknown = sorted(set(changes) - set(given))
+        if unknown:
+            raise InvalidInput(f"{unknown[0]!r} is no parameter of a building; known are {', '.join(given)}")
+        for name in ("storey_height", "collapse_drift"):
+            if np.isnan(given[name]).any():
+                given[name] = None
+        return Building(**given | changes)
 
     @property
     def n_storeys(self) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,9 @@ from fdspec.kernels.devices import layout as row
 from fdspec.model.building_check import Array, read_only
 from fdspec.model.link import Link, TensionBrace
 from fdspec.model.springs import Linkage
+
+if TYPE_CHECKING:
+    from fdspec.model.building import Building
 
 IntArray = NDArray[np.int64]
 
@@ -42,28 +45,7 @@ class DeviceFrame(NamedTuple):
     """(L,) slip offset of each link in the frame at rest, m: the slack of a one-sided brace."""
 
 
-class Devices(Protocol):
-    """What is asked of a building."""
-
-    floor_mass: Array
-    storey_stiffness: Array
-    brace_mass: Array
-    brace_stiffness: Array
-    brace_damping: Array
-    slip_force: Array
-    kinetic_slip_force: Array
-    storey_height: Array
-    yield_shear: Array
-    hardening_ratio: Array
-    gravity_load: Array
-    slot_length: Array
-    slot_stiffness: Array
-    recentring_stiffness: Array
-    collapse_drift: Array
-    links: tuple[Link | TensionBrace, ...]
-
-
-def device_frame(building: Devices, stiffness: Linkage, damping: Linkage) -> DeviceFrame:
+def device_frame(building: Building, stiffness: Linkage, damping: Linkage) -> DeviceFrame:
     """Return the arrays of a building; stiffness and damping are those of its elastic bare frame."""
     size = building.floor_mass.size
     yields = building.yield_shear < np.inf
@@ -102,9 +84,9 @@ def device_frame(building: Devices, stiffness: Linkage, damping: Linkage) -> Dev
                     row.RECENTRING: building.recentring_stiffness[i],
                 }
             )
-    for i in np.flatnonzero(yields):
+    for i in map(int, np.flatnonzero(yields)):
         columns[i] = len(places)
-        places.append([int(i) + 1, int(i), row.WITHOUT_MASS, 0])
+        places.append([i + 1, i, row.WITHOUT_MASS, 0])
         force = (1.0 - share[i]) * building.yield_shear[i]
         links.append(
             {
@@ -177,7 +159,7 @@ def _numbers(link: Link | TensionBrace) -> tuple[list[int], dict[int, float]]:
     }
 
 
-def _drift_limit(building: Devices, gravity: Array, stiffness: Linkage) -> Array:
+def _drift_limit(building: Building, gravity: Array, stiffness: Linkage) -> Array:
     """Return the drift at which each storey counts as collapsed, m, (N,)."""
     softens = (building.yield_shear < np.inf) & (building.hardening_ratio < 0.0)
     usual = np.full(building.floor_mass.size, np.inf)

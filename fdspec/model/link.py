@@ -217,13 +217,13 @@ def _ends(upper: object, lower: object) -> tuple[int, int]:
 
 
 def _force(argument: str, value: float) -> float:
-    if isinstance(value, float | int) and value == math.inf:
+    if value == math.inf:
         return math.inf
     return not_negative_number(argument, value)
 
 
 def _length(value: float) -> float:
-    if isinstance(value, float | int) and value == math.inf:
+    if value == math.inf:
         return math.inf
     return positive_number("slot_length", finite_number("slot_length", value), "m")
 

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from fdspec.engines.trajectory import Course, DeviceCourse, FloatArray, Span
+from fdspec.engines.trajectory import Course, CourseWithDevices, DeviceCourse, FloatArray, Span
 from fdspec.errors import IntegrationError, InvalidInput
 from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.model.building import Building
@@ -108,7 +108,7 @@ def simulate(
         from fdspec.engines.many_storeys import integrate_many_storeys
 
         course = integrate_many_storeys(building, motion, span, start)
-    if course.devices is not None and course.devices.collapse_storey > 0:
+    if isinstance(course, CourseWithDevices) and course.devices.collapse_storey > 0:
         raise IntegrationError(
             f"the history of {building!r} under {motion.name or 'the motion'} ended with status collapsed: "
             f"the drift of storey {course.devices.collapse_storey} reached its limit of "
@@ -241,8 +241,8 @@ def _dataset(
         "kinetic_slip_force": ("storey", building.kinetic_slip_force),
         **{name: ((), value) for name, value in told.items()},
     }
-    if course.devices is not None:
-        variables |= _of_devices(building, course.devices, course.peak_drift)
+    if isinstance(course, CourseWithDevices):
+        variables |= _of_devices(building, course.devices)
         if building.links:
             coords["link"] = [link.name or f"link {i}" for i, link in enumerate(building.links, start=1)]
     dataset = xr.Dataset(variables, coords=coords)
@@ -262,9 +262,9 @@ def _dataset(
     return describe(dataset, HISTORY)
 
 
-def _of_devices(building: Building, devices: DeviceCourse, peak_drift: FloatArray) -> dict[str, Any]:
+def _of_devices(building: Building, devices: DeviceCourse) -> dict[str, Any]:
     """Return the variables that only buildings with devices have."""
-    each, storey = ("time", "storey"), "storey"
+    each = ("time", "storey")
     variables: dict[str, Any] = {
         "kinetic_energy": ("time", devices.kinetic_energy),
         "strain_energy": ("time", devices.strain_energy),
@@ -275,21 +275,9 @@ def _of_devices(building: Building, devices: DeviceCourse, peak_drift: FloatArra
         "column_shear": (each, devices.column_shear),
         "plastic_deformation": (each, devices.plastic_deformation),
     }
-    for name in (
-        "peak_slip",
-        "residual_slip",
-        "peak_brace_force",
-        "peak_column_shear",
-        "peak_column_deformation",
-        "plastic_drift",
-        "ductility",
-        "column_energy",
-        "column_events",
-        "slot_events",
-    ):
-        variables[name] = (storey, getattr(devices, name))
-    if not np.isnan(building.storey_height).any():
-        variables["peak_drift_ratio"] = (storey, peak_drift / building.storey_height)
+    for name, values in devices.storeys.items():
+        if name != "peak_drift_ratio" or not np.isnan(building.storey_height).any():
+            variables[name] = ("storey", values.astype(HISTORY[name].dtype))
     if building.links:
         over_time, link = ("time", "link"), "link"
         variables["link_slip"] = (over_time, devices.link_slip)

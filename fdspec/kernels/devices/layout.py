@@ -90,10 +90,12 @@ PEAK_SLIP = 5
 PEAK_DEFORMATION = 6
 PEAK_FORCE = 7
 ORIGIN = 8
-TALLY_ROWS = 9
-"""Rows of ``tally`` (9, L): offset where the present slip began; distance slipped and energy dissipated
+PEAK_TOP = 9
+TALLY_ROWS = 10
+"""Rows of ``tally`` (10, L): offset where the present slip began; distance slipped and energy dissipated
 before it; changes of phase; contacts of the slot and releases; peaks of the slip from where the link was
-fastened, of |g| and of the link's force; offset where it was fastened."""
+fastened, of |g| and of the link's force; offset where it was fastened; peak of the displacement
+of the brace's top."""
 
 
 class Frame(NamedTuple):

@@ -13,6 +13,7 @@ from fdspec.kernels.devices.layout import (
     PEAK_DEFORMATION,
     PEAK_FORCE,
     PEAK_SLIP,
+    PEAK_TOP,
     PHASE,
     UPPER,
     WITH_MASS,
@@ -83,6 +84,9 @@ def raise_peaks(frame, state, series, n, h, x, peaks):
         for k in range(n + 1):
             c[k] = floors[U, upper, k] - floors[U, lower, k]
         tally[PEAK_DEFORMATION, j] = raised(c, n, x, tally[PEAK_DEFORMATION, j])
+        for k in range(n + 1):
+            c[k] = floors[U, upper, k] - series.sliders[O, j, k]
+        tally[PEAK_TOP, j] = raised(c, n, x, tally[PEAK_TOP, j])
         beside = frame.links[BESIDE, j]
         for k in range(n):
             c[k] = series.sliders[BRACE, j, k] + beside * (floors[U, upper, k] - floors[U, lower, k])
