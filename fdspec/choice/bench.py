@@ -341,8 +341,12 @@ def _run_devices(
     from fdspec.engines.devices import peaks_of
 
     table = np.full((len(RESPONSES), items.size), np.nan)
+    braced = building.brace_stiffness > 0.0
     for column, item in enumerate(items):
-        one = building.with_changes(slip_force=slip_force[item], kinetic_slip_force=kinetic_slip_force[item])
+        one = building.with_changes(
+            slip_force=np.where(braced, slip_force[item], 0.0),
+            kinetic_slip_force=np.where(braced, kinetic_slip_force[item], 0.0),
+        )
         found = _largest(*peaks_of(one, motion))
         table[:, column] = [found.get(name, np.nan) for name in RESPONSES]
     return table

@@ -202,7 +202,7 @@ def _bench(
         brace_mass=grid.brace_mass,
         damping_ratio=grid.damping_ratio,
         brace_damping_ratio=grid.brace_damping_ratio,
-        **grid.devices,  # type: ignore[arg-type]
+        **grid.devices,
     )
     return Bench(building, motions, index, statistic, workers)
 
