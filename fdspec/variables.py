@@ -75,10 +75,11 @@ STATUSES: Final = MappingProxyType(
         1: "transition_cap_reached",
         2: "non_finite_state",
         3: "iteration_not_converged",
-        4: "collapsed",
+        4: "energy_not_closed",
+        5: "collapsed",
     }
 )
-"""Status code -> meaning, as the kernels return them; the last comes from methods that iterate alone."""
+"""Status code -> meaning, as the kernels return them."""
 
 
 def motion_variables(dims: tuple[str, ...]) -> tuple[Variable, ...]:

@@ -17,6 +17,7 @@ from fdspec.engines.many_storeys import integrate_many_storeys
 from fdspec.engines.trajectory import Span
 from fdspec.errors import IntegrationError, InvalidInput
 from fdspec.kernels.devices import layout as row
+from fdspec.kernels.types import COLLAPSED
 from tests.reference import numbers
 
 GROUND, DT = numbers.motion("mdof_peaks.json")
@@ -396,7 +397,7 @@ def test_collapse_has_a_status_and_says_where() -> None:
         fdspec.simulate(building, strong)
     start = np.zeros((2, 2, 2))
     outcome = run(building.device_frame, strong, Span(0, DT, 1), start)
-    assert outcome.totals["status"] == 4
+    assert outcome.totals["status"] == COLLAPSED
     assert outcome.peaks[3, 0] == pytest.approx(0.3, rel=1e-12)
     assert np.abs(outcome.floors[0, 1]) == pytest.approx(0.3, rel=1e-12)
     assert outcome.totals["energy_error"] < 1e-9
@@ -415,7 +416,7 @@ def test_the_limit_of_collapse_is_the_users() -> None:
     for limit in (0.05, 0.2):
         frame = two_storeys(**falling, collapse_drift=limit).device_frame
         outcome = run(frame, SHORT.scaled(2.0), Span(400, DT, 1), np.zeros((2, 2, 2)))
-        assert outcome.totals["status"] == 4
+        assert outcome.totals["status"] == COLLAPSED
         times.append(outcome.totals["collapse_time"])
     assert times[0] < times[1]
     never = two_storeys(**falling, collapse_drift=math.inf).device_frame

@@ -37,6 +37,8 @@ from fdspec.kernels.devices.tally import close_travel
 from fdspec.kernels.frame.taylor import TERMS, order_for
 from fdspec.kernels.types import (
     COLLAPSED,
+    ENERGY_NOT_CLOSED,
+    ENERGY_TOLERANCE,
     NON_FINITE_STATE,
     OK,
     TRANSITION_CAP,
@@ -216,10 +218,12 @@ def history(
         dissipated += state.tally[WORK, j]
     gravity = work_of_gravity(frame, state)
     balance = work_in + stored + gravity - stored_energy(frame, state) - viscous - dissipated
-    scale = largest_work + abs(stored)
+    scale = max(largest_work + abs(stored), viscous + dissipated)
     error = abs(balance) / scale if scale > 0.0 else 0.0
-    if status == OK and not math.isfinite(dissipated + viscous + work_in + error):
+    if not math.isfinite(dissipated + viscous + work_in + error):
         status = NON_FINITE_STATE
+    elif status == OK and error > ENERGY_TOLERANCE:
+        status = ENERGY_NOT_CLOSED
     totals[0] = logged
     totals[1] = viscous
     totals[2] = work_in

@@ -41,7 +41,6 @@ from fdspec.kernels.frame.output import write_traces
 from fdspec.kernels.frame.peaks import PEAK_ROWS, raise_peaks
 from fdspec.kernels.frame.reset import (
     RELEASE,
-    SOON,
     TALLY_ROWS,
     begin_free,
     begin_slip,
@@ -64,6 +63,8 @@ from fdspec.kernels.frame.taylor import (
     relax,
 )
 from fdspec.kernels.types import (
+    ENERGY_NOT_CLOSED,
+    ENERGY_TOLERANCE,
     NON_FINITE_STATE,
     OK,
     TRANSITION_CAP,
@@ -206,6 +207,7 @@ def history(
     tracing = traces.shape[0] > 0
     status = OK
     work_in = 0.0
+    most_in = 0.0
     viscous = 0.0
     written = 0
     events = 0
@@ -221,7 +223,7 @@ def history(
             if massless:
                 relax(frame, model, kind, phase, fresh, state)
                 rate = fastest_rate(model, phase, held_rate)
-            soon = SOON * min(dt, 1.0 / rate)
+            radian = min(dt, 1.0 / rate)
             parts = max(1, math.ceil((dt - tau) * rate / radians - 1e-9))
             h = (dt - tau) / parts
             n = order_for(rate * h, extra)
@@ -247,7 +249,7 @@ def history(
                 n,
                 h,
                 step * dt + tau,
-                soon,
+                radian,
                 acceleration,
                 rise,
                 c,
@@ -286,6 +288,7 @@ def history(
                     written += 1
             if done > 0.0:
                 work_in += input_work(momentum, n, h, acceleration, rise, done)
+                most_in = max(most_in, abs(work_in))
                 if certify or tracing:
                     viscous += viscous_work(frame, dense_damping, damped, series, n, h, done, speeds)
                 end_of_step(series, n, done, state)
@@ -313,7 +316,7 @@ def history(
                 signs,
                 x,
                 step * dt + tau,
-                soon,
+                radian,
                 times,
                 storeys,
                 phases,
@@ -346,12 +349,17 @@ def history(
         by_storey[10, i] = work
     error = 0.0
     if certify:
-        scale = abs(work_in) + stored
+        # Net input may be zero, as over whole periods of a frame without damping; what the balance has to
+        # resolve is the most that was ever put in.
+        scale = max(most_in + stored, viscous + friction)
         if scale > 0.0:
             now = stored_energy(frame, dense_stiffness, state)
             error = abs(work_in + stored - now - viscous - friction) / scale
-    if status == OK and not math.isfinite(friction + viscous + work_in + error):
-        status = NON_FINITE_STATE
+    if status == OK:
+        if not math.isfinite(friction + viscous + work_in + error):
+            status = NON_FINITE_STATE
+        elif error > ENERGY_TOLERANCE:
+            status = ENERGY_NOT_CLOSED
     totals[0] = transitions
     totals[1] = friction
     totals[2] = viscous
