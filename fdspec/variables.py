@@ -299,6 +299,9 @@ HISTORY: Final[Registry] = registry_of(
         Variable(
             "input_energy", _OVER_TIME, "J", "energy put in by the ground motion, in the ground's frame"
         ),
+        Variable(
+            "end_state", ("state",), "1", "state of the engine at the end, for a history that goes on from it"
+        ),
         Variable("transition_time", _TRANSITION, "s", "instant of the change of phase"),
         Variable("transition_storey", _TRANSITION, "1", "storey of the change of phase", "int64"),
         Variable("transition_phase", _TRANSITION, "", "phase after the change", "int8", _flags(PHASES)),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -37,6 +37,11 @@ class Outcome(NamedTuple):
     peaks: FloatArray
     totals: dict[str, float]
 
+    @property
+    def end(self) -> FloatArray:
+        """The state at the end, from which another history goes on."""
+        return np.concatenate([self.floors.ravel(), self.sliders.ravel(), self.mode.ravel()])
+
 
 class Traces(NamedTuple):
     """Room for the course in time."""
@@ -64,12 +69,15 @@ def run(
     span: Span,
     start: FloatArray,
     traces: Traces | None = None,
+    resume: FloatArray | None = None,
+    *,
     radians: float = RADIANS,
     extra_terms: int = 0,
 ) -> Outcome:
     """Integrate a frame with devices once.
 
-    start: displacement and velocity of floors and braces, (2, 2, N), m and m/s.  radians: longest phase of a
+    start: displacement and velocity of floors and braces, (2, 2, N), m and m/s.  resume: the end of another
+    history (`Outcome.end`), to go on from in place of the start.  radians: longest phase of a
     step; extra_terms: terms of the series beyond those that rounding leaves; neither moves a result.
     """
     size = frame.mass.size - 1
@@ -83,22 +91,11 @@ def run(
         sliders[0, j] = start[0, 0, storey] - start[0, 1, storey]
         if frame.places[row.KIND, j] == row.WITH_MASS:
             sliders[1, j] = start[1, 0, storey] - start[1, 1, storey]
-    return _run(frame, motion, span, floors, sliders, traces, radians, extra_terms)
-
-
-def _run(
-    frame: DeviceFrame,
-    motion: GroundMotion,
-    span: Span,
-    floors: FloatArray,
-    sliders: FloatArray,
-    traces: Traces | None,
-    radians: float,
-    extra_terms: int,
-) -> Outcome:
-    size = frame.mass.size - 1
-    links = frame.places.shape[1]
     mode = np.zeros((row.MODE_ROWS, links), np.int64)
+    if resume is not None:
+        parts = np.split(resume, np.cumsum([floors.size, sliders.size]))
+        floors, sliders = parts[0].reshape(floors.shape).copy(), parts[1].reshape(sliders.shape).copy()
+        mode = np.ascontiguousarray(parts[2].reshape(mode.shape), dtype=np.int64)
     tally = np.empty((row.TALLY_ROWS, links))
     peaks = np.empty((PEAK_ROWS, size))
     totals = np.empty(len(TOTALS))
@@ -110,7 +107,7 @@ def _run(
         span.free_steps,
         radians,
         extra_terms,
-        False,
+        resume is not None,
         floors,
         sliders,
         mode,
@@ -132,6 +129,8 @@ def integrate_devices(
     motion: GroundMotion,
     span: Span,
     start: FloatArray,
+    resume: FloatArray | None = None,
+    *,
     radians: float = RADIANS,
     extra_terms: int = 0,
 ) -> CourseWithDevices:
@@ -140,9 +139,10 @@ def integrate_devices(
     size = building.n_storeys
     links = frame.places.shape[1]
     # Twice: how many changes of phase there are is known at the end.
-    first = run(frame, motion, span, start, None, radians, extra_terms)
+    options: dict[str, Any] = {"radians": radians, "extra_terms": extra_terms}
+    first = run(frame, motion, span, start, None, resume, **options)
     traces = _room(int(first.totals["events"]), span.outputs, size, links)
-    outcome = run(frame, motion, span, start, traces, radians, extra_terms)
+    outcome = run(frame, motion, span, start, traces, resume, **options)
     return _course(building, frame, traces, outcome)
 
 
@@ -284,6 +284,7 @@ def _course(building: Building, frame: DeviceFrame, traces: Traces, outcome: Out
         dissipated_energy=_friction(frame, outcome),
         energy_error=totals["energy_error"],
         status=int(totals["status"]),
+        end=outcome.end,
         devices=devices,
     )
 

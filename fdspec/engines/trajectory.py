@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,6 +48,8 @@ class Course:
     dissipated_energy: float
     energy_error: float
     status: int
+    end: FloatArray | None = None
+    """The engine's own state at the end, (k,), from which it goes on; None where a method keeps none."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +88,7 @@ class DeviceCourse:
 class CourseWithDevices(Course):
     """One history of a building with devices."""
 
-    devices: DeviceCourse
+    devices: DeviceCourse = field(kw_only=True)
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from typing import Any
 
@@ -30,6 +31,7 @@ def simulate(
     free_vibration: float = 0.0,
     initial_displacement: ArrayLike | None = None,
     initial_velocity: ArrayLike | None = None,
+    start_from: xr.Dataset | None = None,
 ) -> xr.Dataset:
     """Integrate one history exactly, event by event, or by another method; return its course in time.
 
@@ -51,6 +53,12 @@ def simulate(
     initial_displacement, initial_velocity : array_like, m and m/s, optional
         Relative to the ground: shape (N,) for the floors, each brace moving with its floor as if no
         damper had ever slipped; shape (2, N) for floors and braces apart.
+
+    start_from : xarray.Dataset, optional
+        A history of the same building, from `simulate` or a file, at whose end this one begins: an aftershock
+        after a mainshock.  To the bit as if both motions were one, where the second begins with the sample
+        that the first ends with and no free vibration lies between; peaks, travels and energies are those of
+        the second motion alone.
 
     Returns
     -------
@@ -89,6 +97,14 @@ def simulate(
         ]
     )
     other = chosen_method(method)
+    resume = None if start_from is None else _end_of(start_from, building)
+    if resume is not None:
+        if initial_displacement is not None or initial_velocity is not None:
+            raise InvalidInput(
+                "start_from gives the start: leave initial_displacement and initial_velocity out"
+            )
+        if other is not None:
+            raise InvalidInput(f"start_from needs method 'exact', got {other.name!r}")
     if other is not None:
         if building.has_devices:
             raise InvalidInput(
@@ -99,15 +115,15 @@ def simulate(
     elif building.has_devices:
         from fdspec.engines.devices import integrate_devices
 
-        course = integrate_devices(building, motion, span, start)
+        course = integrate_devices(building, motion, span, start, resume)
     elif building.n_storeys == 1:
         from fdspec.engines.single_storey import integrate_single_storey
 
-        course = integrate_single_storey(building, motion, span, start)
+        course = integrate_single_storey(building, motion, span, start, resume)
     else:
         from fdspec.engines.many_storeys import integrate_many_storeys
 
-        course = integrate_many_storeys(building, motion, span, start)
+        course = integrate_many_storeys(building, motion, span, start, resume)
     if isinstance(course, CourseWithDevices) and course.devices.collapse_storey > 0:
         raise IntegrationError(
             f"the history of {building!r} under {motion.name or 'the motion'} ended with status collapsed: "
@@ -122,6 +138,20 @@ def simulate(
         )
     solved = building if other is None else other.model(building)
     return _dataset(solved, motion, span, start, course, {} if other is None else other.parameters)
+
+
+def _end_of(history: xr.Dataset, building: Building) -> FloatArray:
+    """The state in which a history of this very building ended."""
+    if not isinstance(history, xr.Dataset) or "end_state" not in history:
+        raise InvalidInput(
+            "start_from must be a history that fdspec.simulate has computed by the exact method"
+        )
+    told = json.loads(history.attrs.get("parameters", "{}"))
+    ours = json.loads(provenance("", building.parameters, ())["parameters"])
+    for name, value in ours.items():
+        if name in building.parameters and told.get(name) != value:
+            raise InvalidInput(f"start_from must be a history of the same building, but its {name} differs")
+    return np.array(history["end_state"].values, dtype=np.float64)
 
 
 def _span(motion: GroundMotion, dt_out: object, free_vibration: object) -> Span:
@@ -241,6 +271,8 @@ def _dataset(
         "kinetic_slip_force": ("storey", building.kinetic_slip_force),
         **{name: ((), value) for name, value in told.items()},
     }
+    if course.end is not None:
+        variables["end_state"] = ("state", course.end)
     if isinstance(course, CourseWithDevices):
         variables |= _of_devices(building, course.devices)
         if building.links:
