@@ -79,8 +79,8 @@ def test_types_that_are_not_floats():
 
 def test_flags_name_every_code():
     attributes = CUBE["status"].cf_attributes
-    assert attributes["flag_meanings"] == "ok transition_cap_reached non_finite_state iteration_not_converged"
-    np.testing.assert_array_equal(attributes["flag_values"], np.array([0, 1, 2, 3], dtype=np.int8))
+    assert attributes["flag_meanings"] == " ".join(types.STATUS_MEANINGS)
+    np.testing.assert_array_equal(attributes["flag_values"], np.arange(len(types.STATUS_MEANINGS), dtype=np.int8))
     assert attributes["flag_values"].dtype == np.int8
     assert len(str(HISTORY["phase"].cf_attributes["flag_meanings"]).split()) == len(PHASES)
     assert len(str(attributes["flag_meanings"]).split()) == len(STATUSES)
