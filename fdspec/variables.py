@@ -81,6 +81,9 @@ STATUSES: Final = MappingProxyType(
 )
 """Status code -> meaning, as the kernels return them."""
 
+NOT_COMPUTED: Final = -1
+"""Status of a cell that no sweep has come to yet."""
+
 
 def motion_variables(dims: tuple[str, ...]) -> tuple[Variable, ...]:
     """Return what is told of a ground motion: over ("record",) in a cube, over () in a history."""
@@ -114,13 +117,16 @@ def response_variables(grid: tuple[str, ...], storey: tuple[str, ...] = ()) -> t
         Variable("peak_velocity", each, "m/s", "peak velocity of the floor relative to the ground"),
         Variable("peak_base_shear", grid, "N", "peak shear force on the ground, frame and brace together"),
         Variable(
-            "residual_displacement", each, "m", "final displacement of the floor relative to the ground"
+            "residual_displacement",
+            each,
+            "m",
+            "displacement of the floor relative to the ground at the record's end",
         ),
         Variable("slip_travel", each, "m", "total distance slipped in the damper"),
         Variable("transitions", grid, "1", f"number of changes of phase of {dampers}", "int64"),
         Variable("dissipated_energy", grid, "J", f"energy dissipated by friction in {dampers}"),
         Variable("input_energy", grid, "J", "energy put in by the ground motion, in the ground's frame"),
-        Variable("energy_error", grid, "1", "error of the energy balance relative to the input energy"),
+        Variable("energy_error", grid, "1", "error of the energy balance relative to the energy in play"),
         Variable("status", grid, "", "how the integration ended", "int8", _flags(STATUSES)),
     )
 
@@ -312,7 +318,10 @@ HISTORY: Final[Registry] = registry_of(
         Variable("peak_storey_shear", _STOREY, "N", "peak shear force of frame and brace together"),
         Variable("peak_base_shear", (), "N", "peak shear force on the ground, frame and brace together"),
         Variable(
-            "residual_displacement", _STOREY, "m", "final displacement of the floor relative to the ground"
+            "residual_displacement",
+            _STOREY,
+            "m",
+            "displacement of the floor relative to the ground at the history's end",
         ),
         Variable(
             "residual_drift", _STOREY, "m", "final displacement of the floor relative to the floor below"
@@ -320,7 +329,7 @@ HISTORY: Final[Registry] = registry_of(
         Variable("storey_transitions", _STOREY, "1", "number of changes of phase of the damper", "int64"),
         Variable("transitions", (), "1", "number of changes of phase of all dampers", "int64"),
         Variable("dissipated_energy", (), "J", "energy dissipated by friction in all dampers, in total"),
-        Variable("energy_error", (), "1", "error of the energy balance relative to the input energy"),
+        Variable("energy_error", (), "1", "error of the energy balance relative to the energy in play"),
         Variable("status", (), "", "how the integration ended", "int8", _flags(STATUSES)),
     ),
     demand_variables(_STOREY),

@@ -20,7 +20,9 @@ from fdspec.measures.indices import Weights, needs_of, weights_of
 from fdspec.model.building import Building
 from fdspec.model.grid import Grid
 from fdspec.model.motion import GroundMotion
+from fdspec.runs.bounds import SWEEP_HOURS, refuse_long
 from fdspec.runs.cube import assemble, named
+from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.progress import progress as progress_bar
 from fdspec.scheduling.threads import fan_out, plan
 
@@ -66,7 +68,7 @@ def best_pretension(
     slot_stiffness: float | None = None,
     recentring_stiffness: float | None = None,
     workers: int | None = None,
-    progress: bool = False,
+    progress: Shown = False,
 ) -> xr.Dataset:
     """Find the pretension that lowers a performance index most, by computing histories where it may be.
 
@@ -93,8 +95,8 @@ def best_pretension(
         As for `fdspec.sweep`.
     workers : int, optional
         Threads; one a core unless given.  No result depends on it.
-    progress : bool
-        Show a bar on stderr where it is a terminal.
+    progress : bool or callable
+        Show a bar on stderr where it is a terminal or a notebook's; or call this with (done, total).
 
     Returns
     -------
@@ -228,11 +230,12 @@ def _of_records(
     index: str | Weights,
     band: float,
     workers: int | None,
-    progress: bool,
+    progress: Shown,
 ) -> NDArray[np.object_]:
     """Search each column under each record by itself: Found (records, columns)."""
     n_sr, _, n_t = grid.shape
     seconds = [motion.n * n_sr * n_t * SEARCH_SECONDS_PER_SAMPLE for motion in motions]
+    refuse_long(sum(seconds), SWEEP_HOURS, f"a search for {n_sr * n_t:.4g} frames")
     tasks = plan(n_sr * n_t, seconds, None, "columns")
     parts = fan_out(
         partial(_search_columns, grid, index, band),

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.output import force_option, free
 from fdspec.cli.record_options import file_options, named_records
 
@@ -172,19 +173,19 @@ def choose(
         workers=workers,
         progress=True,
     )
-    click.echo(text(choice))
+    echo(text(choice))
     if cube_path is not None:
         from fdspec.store import save
 
         save(choice, cube_path, overwrite=force)
-        click.echo(str(cube_path))
+        echo(str(cube_path))
     if page_path is not None:
         from fdspec.report.page import page
         from fdspec.store.replacing import replacing
 
         with replacing(page_path, suffixes=PAGES) as part:
             part.write_text(page(choice, chosen, motions), encoding="utf-8")
-        click.echo(str(page_path))
+        echo(str(page_path))
 
 
 def _index(given: str) -> str | dict[str, float]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.table import table
 
 if TYPE_CHECKING:
@@ -41,14 +42,16 @@ def claims(cube: str, factor: float, markdown: bool) -> None:
     """
     from fdspec import store
     from fdspec.measures.claims import study_claims
+    from fdspec.store.suitable import require_cube
 
     dataset = store.open(cube)
+    require_cube(dataset, cube, "the study's claims")
     found = study_claims(dataset, normal_force_factor=factor)
     bolt = study_claims(dataset, normal_force_factor=BOLT_FACTOR * factor)
     blocks = [_shares(found, markdown=markdown), _sentences(found), _verdicts(found, bolt, markdown=markdown)]
     if comment := dataset.attrs.get("comment"):
         blocks.append(textwrap.fill(str(comment), WIDTH))
-    click.echo("\n\n".join(blocks))
+    echo("\n\n".join(blocks))
 
 
 def _shares(found: xr.Dataset, *, markdown: bool) -> str:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.output import force_option, free, made_folder, write_picture
 from fdspec.errors import InvalidInput
 
@@ -68,12 +69,14 @@ def figures(
     from fdspec.report.study_figures import applied_motions, chosen, study_pictures
     from fdspec.runs.study import Study
     from fdspec.scheduling.progress import progress
+    from fdspec.store.suitable import require_cube
 
     dataset = store.open(cube)
+    require_cube(dataset, cube, "the study's figures")
     given = Study.read(study_file).motions() if study_file else ()
     pictures = chosen(study_pictures(dataset, given), _numbers(only))
     if listed:
-        click.echo("\n".join(f"{picture.number:5} {picture.title}" for picture in pictures))
+        echo("\n".join(f"{picture.number:5} {picture.title}" for picture in pictures))
         return
     folder = made_folder(output)
     kinds = tuple(dict.fromkeys(kinds)) or ("png", "pdf")
@@ -85,7 +88,7 @@ def figures(
         free(path, force=force, suffixes=(path.suffix,))
     _, lost = applied_motions(dataset, given)
     if lost and (only is None or {"8", "9"} & set(_numbers(only))):
-        click.echo(
+        echo(
             f"fdspec: warning: figures 8 and 9 are without {', '.join(lost)}: no record found with the "
             "cube's checksum; name its study file with --study",
             err=True,
@@ -102,7 +105,7 @@ def figures(
             _write(_encoded(plot_contact_sheet(thumbnails, title=title), kinds), sheet)
             captions.write_text(_page(pictures), encoding="utf-8")
             done(1)
-    click.echo("\n".join(str(path) for path in [*(path for files in paths for path in files), *sheet]))
+    echo("\n".join(str(path) for path in [*(path for files in paths for path in files), *sheet]))
 
 
 def _encoded(figure: Figure, kinds: Sequence[str], *, thumbnail: bool = False) -> dict[str, bytes]:

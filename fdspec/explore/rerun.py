@@ -14,6 +14,7 @@ from fdspec.errors import InvalidInput
 from fdspec.explore.motions import Motions
 from fdspec.explore.packing import pack
 from fdspec.model.building import Building
+from fdspec.runs.bounds import refuse_long, seconds_of_history
 from fdspec.runs.simulate import simulate
 from fdspec.units import G
 
@@ -30,6 +31,9 @@ TRACES: Final[Mapping[str, float]] = {
     "ground_acceleration": 1.0 / G,
 }
 """What is drawn of a history, and the factor to the page's mm, kN and g."""
+
+PAGE_HOURS: Final = 1.0 / 60.0
+"""h that a history for the page may take."""
 
 LOOP_FINER: Final = 8
 """Outputs of the hysteresis loop for each sample of the motion: a damper sticks and slips within a sample."""
@@ -99,6 +103,8 @@ class Rerun:
         self.check(record=record, stiffness_ratio=stiffness_ratio, pretension=pretension, period=period)
         found = self.motions.find(str(self.cube["record"].values[record]))
         frame = self.building(stiffness_ratio, pretension, period)
+        seconds = seconds_of_history(frame, found.motion.dt, found.motion.n)
+        refuse_long(seconds, PAGE_HOURS, "this history")
         return simulate(frame, found.motion, dt_out=found.motion.dt / finer), found.notice
 
     def check(self, **place: int) -> None:

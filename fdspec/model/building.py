@@ -23,6 +23,7 @@ from fdspec.model.damping import (
     natural_modes,
     symmetric,
 )
+from fdspec.model.damping import damping_ratio as damping_ratio_of
 from fdspec.model.device_check import NONE, checked_links, device_fields
 from fdspec.model.device_frame import DeviceFrame, device_frame
 from fdspec.model.link import Link, TensionBrace
@@ -219,6 +220,8 @@ class Building:
         damping_ratio: float = 0.05,
         kinetic_slip_force: float | None = None,
         brace_damping_ratio: float = 0.0,
+        *,
+        overdamped: bool = False,
         **devices: Unpack[DeviceParameters],
     ) -> Building:
         """Make the study's single-storey frame.
@@ -237,6 +240,8 @@ class Building:
             Share of critical damping of the bare frame: c_f = 2 zeta sqrt(k_f m_f).
         brace_damping_ratio : float
             The same of the brace standing by itself: c_d = 2 zeta sqrt(k_d m_d).
+        overdamped : bool
+            Whether these ratios may be 1 or more; unless asked for, that is taken for per cent and refused.
         **devices
             `storey_height`, `yield_shear`, `hardening_ratio`, `gravity_load`, `slot_length`,
             `slot_stiffness`, `recentring_stiffness`, `links` and `collapse_drift`, as for `Building`.
@@ -249,7 +254,7 @@ class Building:
         mass = positive_number("floor_mass", floor_mass, "kg")
         stiffness = mass * (2.0 * math.pi / positive_number("period", period, "s")) ** 2
         ratio = not_negative_number("stiffness_ratio", stiffness_ratio)
-        brace_ratio = not_negative_number("brace_damping_ratio", brace_damping_ratio)
+        brace_ratio = damping_ratio_of("brace_damping_ratio", brace_damping_ratio, overdamped=overdamped)
         brace_stiffness = ratio * stiffness
         return cls(
             mass,
@@ -258,7 +263,9 @@ class Building:
             brace_stiffness,
             slip_force,
             kinetic_slip_force,
-            ModalDamping(damping_ratio),
+            ModalDamping(
+                damping_ratio_of("damping_ratio", damping_ratio, overdamped=overdamped), overdamped=overdamped
+            ),
             2.0 * brace_ratio * math.sqrt(brace_stiffness * not_negative_number("brace_mass", brace_mass)),
             **devices,
         )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -13,7 +12,7 @@ from fdspec.errors import InvalidInput
 from fdspec.model.building import Building
 from fdspec.model.damping import ModalDamping
 from fdspec.model.link import Link
-from fdspec.model.toml_lines import key_lines, line_of
+from fdspec.model.toml_lines import key_lines, line_of, parsed
 
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
@@ -120,9 +119,9 @@ def read_building(path: str | Path) -> Building:
     except (OSError, UnicodeDecodeError) as error:
         raise InvalidInput(f"cannot read the building {path}: {error}") from None
     try:
-        table = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise InvalidInput(f"{path} is no TOML: {error}") from None
+        table = parsed(text)
+    except ValueError as error:
+        raise InvalidInput(f"{path}: {error}") from None
     try:
         file = _File.model_validate(table)
     except ValidationError as error:

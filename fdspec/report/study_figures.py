@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -28,6 +28,9 @@ RECORD_FIGURES: Final = {
     "FHR3": 18,
 }
 """The study's figure of each of its records."""
+
+LONGEST: Final = 100
+"""Characters of a record's name in the name of a file."""
 
 SHOWN: Final = 15.0
 """Seconds of the first validation problem that its figure shows; after them little moves."""
@@ -92,7 +95,7 @@ def study_pictures(cube: xr.Dataset, given: Sequence[GroundMotion] = ()) -> list
     names = [str(name) for name in cube["record"].values]
     known = sorted((name for name in names if name in RECORD_FIGURES), key=RECORD_FIGURES.__getitem__)
     others = [name for name in names if name not in RECORD_FIGURES]
-    return pictures + [_of_record(cube, name) for name in (*known, *others)]
+    return _distinct(pictures + [_of_record(cube, name) for name in (*known, *others)])
 
 
 def applied_motions(
@@ -252,9 +255,28 @@ def _of_record(cube: xr.Dataset, record: str) -> Picture:
 
     words = acceleration_caption(cube, record)
     heading = f"absolute acceleration spectra at different pretension forces, {record}"
-    safe = "".join(letter if letter.isalnum() or letter in "-_." else "_" for letter in record).strip(".")
+    safe = "".join(letter if letter.isalnum() or letter in "-_." else "_" for letter in record).strip(".")[
+        :LONGEST
+    ]
     name = f"record-{safe or '_'}" if number is None else f"figure-{number}-{record}"
     return Picture(record if number is None else str(number), name, heading, words, make)
+
+
+def _distinct(pictures: Sequence[Picture]) -> list[Picture]:
+    """Number what would become one file: of records named "a/b" and "a:b" the second is ``record-a_b-2``.
+
+    Names that differ in case alone are one file on some systems.
+    """
+    taken: set[str] = set()
+    named = []
+    for picture in pictures:
+        name, number = picture.name, 1
+        while name.casefold() in taken:
+            number += 1
+            name = f"{picture.name}-{number}"
+        taken.add(name.casefold())
+        named.append(replace(picture, name=name))
+    return named
 
 
 def chosen(pictures: Sequence[Picture], only: Sequence[str]) -> list[Picture]:

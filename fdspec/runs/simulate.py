@@ -10,13 +10,19 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from fdspec.engines.step_count import refuse_endless
 from fdspec.engines.trajectory import Course, CourseWithDevices, DeviceCourse, FloatArray, Span
 from fdspec.errors import IntegrationError, InvalidInput
 from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
+from fdspec.runs.bounds import HISTORY_HOURS, refuse_large, refuse_long, seconds_of_history
+from fdspec.runs.plausible import warn_of_units
 from fdspec.store import provenance
 from fdspec.variables import HISTORY, STATUSES, describe
+
+ROUNDING = 1e-9
+"""Share of a step by which an instant may lie past one that it is meant to be."""
 
 MAX_OUTPUTS = 50_000_000
 """Output instants; a dt_out with a slipped decimal is refused before it fills the memory."""
@@ -32,6 +38,7 @@ def simulate(
     initial_displacement: ArrayLike | None = None,
     initial_velocity: ArrayLike | None = None,
     start_from: xr.Dataset | None = None,
+    max_steps: float | None = None,
 ) -> xr.Dataset:
     """Integrate one history exactly, event by event, or by another method; return its course in time.
 
@@ -53,7 +60,9 @@ def simulate(
     initial_displacement, initial_velocity : array_like, m and m/s, optional
         Relative to the ground: shape (N,) for the floors, each brace moving with its floor as if no
         damper had ever slipped; shape (2, N) for floors and braces apart.
-
+    max_steps : float, optional
+        Most steps that the exact method may take, 1e9 (minutes) unless given or set by the environment
+        variable ``FDSPEC_MAX_STEPS``: a slip of a decimal in a mass or in dt would otherwise take days.
     start_from : xarray.Dataset, optional
         A history of the same building, from `simulate` or a file, at whose end this one begins: an aftershock
         after a mainshock.  To the bit as if both motions were one, where the second begins with the sample
@@ -90,6 +99,15 @@ def simulate(
     if not isinstance(motion, GroundMotion):
         raise InvalidInput(f"motion must be a GroundMotion, got {type(motion).__name__}")
     span = _span(motion, dt_out, free_vibration)
+    samples = float(motion.n + span.free_steps)
+    traces = (13.0 * building.n_storeys + 6.0) * span.outputs
+    refuse_large(8.0 * (samples + 2.0 * traces), f"a history of {samples:.4g} samples")
+    if method == EXACT:
+        seconds = seconds_of_history(building, motion.dt, samples)
+        refuse_long(seconds, HISTORY_HOURS, f"the history of {samples:.4g} samples")
+    warn_of_units(
+        [motion], period=building.bare_periods, slip_force=building.slip_force, floor_mass=building.floor_mass
+    )
     start = np.stack(
         [
             _initial("initial_displacement", initial_displacement, building),
@@ -105,6 +123,8 @@ def simulate(
             )
         if other is not None:
             raise InvalidInput(f"start_from needs method 'exact', got {other.name!r}")
+    if other is None:
+        refuse_endless(building, motion.dt, motion.n - 1 + span.free_steps, max_steps)
     if other is not None:
         if building.has_devices:
             raise InvalidInput(
@@ -140,7 +160,7 @@ def simulate(
     return _dataset(solved, motion, span, start, course, {} if other is None else other.parameters)
 
 
-def _end_of(history: xr.Dataset, building: Building) -> FloatArray:
+def _end_of(history: object, building: Building) -> FloatArray:
     """The state in which a history of this very building ended."""
     if not isinstance(history, xr.Dataset) or "end_state" not in history:
         raise InvalidInput(
@@ -162,7 +182,7 @@ def _span(motion: GroundMotion, dt_out: object, free_vibration: object) -> Span:
         raise InvalidInput(f"dt_out must be a positive time in s, got {dt_out!r}")
     free_steps = math.ceil(free_vibration / motion.dt - 1e-9)
     total = (motion.n - 1 + free_steps) * motion.dt
-    outputs = math.floor(total / every + 1e-9) + 1
+    outputs = math.floor(total / every + ROUNDING) + 1
     if outputs > MAX_OUTPUTS:
         raise InvalidInput(
             f"dt_out {every:g} s gives {outputs:g} outputs over {total:g} s; at most {MAX_OUTPUTS} are kept, "
@@ -189,6 +209,13 @@ def _initial(name: str, given: ArrayLike | None, building: Building) -> FloatArr
     return np.broadcast_to(values, (2, size)).copy()
 
 
+def _ground_at(motion: GroundMotion, time: FloatArray, dt_out: float) -> FloatArray:
+    """Ground acceleration at outputs, of which rounding may put one just behind the record's last sample."""
+    shaking = time <= motion.time[-1] + ROUNDING * dt_out
+    found = np.where(shaking, np.interp(time, motion.time, motion.acceleration), 0.0)
+    return np.asarray(found, dtype=np.float64)
+
+
 def _dataset(
     building: Building,
     motion: GroundMotion,
@@ -197,7 +224,7 @@ def _dataset(
     course: Course,
     method: dict[str, object],
 ) -> xr.Dataset:
-    time = np.arange(span.outputs) * span.dt_out
+    time = np.arange(span.outputs, dtype=np.float64) * span.dt_out
     below = np.zeros_like(course.displacement)
     below[:, 1:] = course.displacement[:, :-1]
     drift = course.displacement - below
@@ -213,7 +240,7 @@ def _dataset(
     storeys = np.arange(1, building.n_storeys + 1)
     each = ("time", "storey")
     variables: dict[str, Any] = {
-        "ground_acceleration": ("time", np.interp(time, motion.time, motion.acceleration, right=0.0)),
+        "ground_acceleration": ("time", _ground_at(motion, time, span.dt_out)),
         "displacement": (each, course.displacement),
         "velocity": (each, course.velocity),
         "acceleration": (each, course.acceleration),

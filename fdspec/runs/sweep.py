@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import os
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -19,7 +21,10 @@ from fdspec.methods.batch import integrate_by_method
 from fdspec.model.building import Building, ModalDamping
 from fdspec.model.grid import Grid
 from fdspec.model.motion import GroundMotion
+from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_sweep
 from fdspec.runs.cube import assemble, chosen, named
+from fdspec.runs.plausible import warn_of_units
+from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.threads import Task, cores, fan_out, plan
 from fdspec.variables import CUBE, STUDY_DIMS, demand_variables
 
@@ -30,11 +35,14 @@ FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 Columns = tuple[FloatArray, FloatArray, FloatArray]
 
-DEVICE_SECONDS_PER_SAMPLE: Final = 10e-6
-"""The same with devices."""
-
 SECONDS_PER_SAMPLE: Final = 8e-9
 """Core time of one history for each sample of its record, roughly; for plans, not for results."""
+
+WINDOW: Final = 512
+"""Samples of the record for which histories are computed to see what they cost."""
+
+PROBE: Final = 0.2
+"""s of core time after which enough is known of the cost."""
 
 BARE: Final = {
     "elastic_acceleration": "peak_acceleration",
@@ -94,7 +102,7 @@ def sweep(
     client: Client | None = None,
     store: str | os.PathLike[str] | None = None,
     restart: bool = False,
-    progress: bool = False,
+    progress: Shown = False,
 ) -> xr.Dataset:
     """Compute the cube: peaks of a single-storey frame over record, stiffness ratio, pretension and period.
 
@@ -140,8 +148,8 @@ def sweep(
         memory holds.  When it is there, from a sweep that was stopped, only what is missing is computed.
     restart : bool
         Whether a store that is there is removed first.
-    progress : bool
-        Show a bar on stderr where it is a terminal.
+    progress : bool or callable
+        Show a bar on stderr where it is a terminal or a notebook's; or call this with (done, total).
 
     Returns
     -------
@@ -191,7 +199,9 @@ def sweep(
         what = f"method {other.name!r}" if other is not None else f"outputs {', '.join(strain)}"
         raise InvalidInput(f"{what}: not for frames with {', '.join(grid.devices)}")
     n_sr, n_f, n_t = grid.shape
-    seconds = [_core_seconds(motion.n, grid, certify) for motion in motions]
+    seconds = seconds_of_sweep(grid, motions, certify)
+    refuse_endless(motions, grid, wanted, sum(seconds), store)
+    warn_of_units(motions, period=grid.period, slip_force=grid.slip_force, floor_mass=grid.floor_mass)
     run = partial(_run_columns, grid, certify, bool(strain), other)
     fan = partial(
         fan_out,
@@ -232,7 +242,9 @@ def sweep(
             [CUBE[name] for name in wanted],
             partial(_block, grid, run, wanted),
             fan,
-            seconds=sum(seconds),
+            seconds=sum(seconds)
+            if columns_per_task
+            else sum(_measured(motions, grid, certify, bool(strain), other)),
             columns_per_task=columns_per_task,
             restart=restart,
         )
@@ -240,9 +252,73 @@ def sweep(
     return cube_of(_variables(grid, len(motions), tasks, fan(run, tasks=tasks), wanted))
 
 
-def estimate(motions: Sequence[GroundMotion], grid: Grid, certify: bool = True) -> float:
-    """Wall seconds that a sweep is expected to take on this machine's cores, roughly."""
-    return _core_seconds(sum(motion.n for motion in motions), grid, certify) / cores()
+def measured(motions: Sequence[GroundMotion], grid: Grid, certify: bool = True) -> float:
+    """Wall seconds that a sweep takes on this machine's cores, from some of its histories, computed here.
+
+    They are taken around the strongest shaking, so that it is rather too much.
+    """
+    return sum(_measured(motions, grid, certify, False, None)) / cores()
+
+
+def _measured(
+    motions: Sequence[GroundMotion], grid: Grid, certify: bool, strain: bool, other: Method | None
+) -> list[float]:
+    """Core seconds of the histories of each motion."""
+    _warm()
+    longest = max(motions, key=lambda motion: motion.n)
+    peak = int(np.argmax(np.abs(longest.acceleration)))
+    first = max(0, min(peak - WINDOW // 4, longest.n - WINDOW))
+    window = GroundMotion(longest.acceleration[first : first + WINDOW], longest.dt, name="window")
+    nothing = GroundMotion(np.zeros(2), longest.dt, name="nothing")
+    ratio = grid.stiffness_ratio[_shares(grid.stiffness_ratio.size, 2)]
+    pretension = grid.pretension[_shares(grid.pretension.size, 8)]
+    period = grid.period[_shares(grid.period.size, 6)]
+    part = replace(grid, stiffness_ratio=ratio, pretension=pretension, period=period)
+    spent, histories = 0.0, 0
+    for k in range(period.size):  # from the shortest, which costs most
+        columns = np.arange(k, ratio.size * period.size, period.size)
+        for motion, sign in ((nothing, -1), (window, 1)):  # what a call costs by itself is no history's
+            started = time.thread_time()
+            _run_columns(part, certify, strain, other, columns, motion)
+            spent += sign * (time.thread_time() - started)
+        histories += columns.size * pretension.size
+        if spent > PROBE:
+            break
+    each = max(spent / (histories * window.n), SECONDS_PER_SAMPLE / 4.0)
+    return [each * motion.n * grid.size for motion in motions]
+
+
+def _shares(size: int, count: int) -> IntArray:
+    """Positions in the middle of equal shares, at most so many."""
+    count = min(size, count)
+    return ((np.arange(count) + 0.5) * size / count).astype(np.int64)
+
+
+def bytes_of(motions: Sequence[GroundMotion], grid: Grid, outputs: Iterable[str]) -> dict[str, int]:
+    """Bytes of each variable of the cube."""
+    n_sr, n_f, n_t = grid.shape
+    lengths = {"record": len(motions), "stiffness_ratio": n_sr, "pretension": n_f, "period": n_t}
+    return {
+        name: math.prod(lengths[dim] for dim in CUBE[name].dims) * np.dtype(CUBE[name].dtype).itemsize
+        for name in outputs
+    }
+
+
+def refuse_endless(
+    motions: Sequence[GroundMotion],
+    grid: Grid,
+    outputs: Iterable[str],
+    seconds: float,
+    store: str | os.PathLike[str] | None,
+) -> None:
+    """Raise InvalidInput for a sweep that this machine cannot hold or that takes longer than the limit."""
+    what = f"a sweep of {len(motions) * grid.size:.4g} histories"
+    size = float(sum(bytes_of(motions, grid, outputs).values()))
+    if store is None:
+        refuse_large(2.0 * size, what)  # once as the tasks return it, once as the cube
+    elif not Path(store).exists():
+        refuse_large(size, what, folder=Path(store).absolute().parent)
+    refuse_long(seconds, SWEEP_HOURS, what)
 
 
 def timed(grid: Grid, motion: GroundMotion, certify: bool = True) -> tuple[float, int]:
@@ -266,12 +342,6 @@ def _demands(grid: Grid) -> tuple[str, ...]:
     if not grid.devices:
         return ()
     return tuple(name for name in DEMANDS if name != "peak_drift_ratio" or grid.storey_height is not None)
-
-
-def _core_seconds(samples: int, grid: Grid, certify: bool) -> float:
-    if grid.devices:
-        return samples * grid.size * DEVICE_SECONDS_PER_SAMPLE
-    return samples * grid.size * SECONDS_PER_SAMPLE * (1.35 if certify else 1.0)
 
 
 def _warm() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import logging
+import math
 from collections.abc import Iterable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Final
@@ -13,8 +15,11 @@ from numpy.typing import ArrayLike, NDArray
 from fdspec.model.building import Building, Frame
 from fdspec.model.building_grid import BuildingGrid, Buildings
 from fdspec.model.motion import GroundMotion
+from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_history
 from fdspec.runs.cube import assemble, chosen, named
-from fdspec.scheduling.threads import Task, fan_out, plan
+from fdspec.runs.plausible import warn_of_units
+from fdspec.scheduling.progress import Shown
+from fdspec.scheduling.threads import Task, cores, fan_out, plan
 from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS, demand_variables
 
 if TYPE_CHECKING:
@@ -23,8 +28,10 @@ if TYPE_CHECKING:
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-SECONDS_PER_SAMPLE: Final = 0.8e-6
-"""Core time of one history for each sample of its record and N^1.5, roughly; for plans, not for results."""
+LONG: Final = 60.0
+"""s of work above which it is told what a stop would lose."""
+
+log = logging.getLogger(__name__)
 
 LIMITS: Final = ("elastic_acceleration", "braced_acceleration")
 DEMANDS: Final = tuple(v.name for v in demand_variables(()))
@@ -47,7 +54,7 @@ def sweep_buildings(
     scheduler: str = "threads",
     cells_per_task: int | None = None,
     client: Client | None = None,
-    progress: bool = False,
+    progress: Shown = False,
 ) -> xr.Dataset:
     """Compute the cube of buildings: peaks of every storey over record, building and two factors on dampers.
 
@@ -80,8 +87,8 @@ def sweep_buildings(
         Histories of one task; about 0.2 s of work unless given.  No result depends on it.
     client : distributed.Client, optional
         Any cluster of dask.distributed, in place of threads here.
-    progress : bool
-        Show a bar on stderr where it is a terminal.
+    progress : bool or callable
+        Show a bar on stderr where it is a terminal or a notebook's; or call this with (done, total).
 
     Returns
     -------
@@ -98,6 +105,9 @@ def sweep_buildings(
 
     Notes
     -----
+    Results are held in memory until the end: a sweep that is stopped loses them.  Where that is more than a
+    minute of work a warning is logged.
+
     The equations of motion are the study's (19) to (25).  Of the limits that ride along,
     ``elastic_acceleration`` is the frame without braces.  A damper that slides freely is another
     building: the braces stand on the floors and swing there, and ``slip_scale`` 0 computes it.
@@ -116,8 +126,28 @@ def sweep_buildings(
     known = (*OUTPUTS, *_demands(grid))
     wanted = chosen(outputs, known, certify)
     histories = _ends(grid)[-1 if set(LIMITS) & set(wanted) else 0]
-    seconds = [histories * motion.n * SECONDS_PER_SAMPLE * grid.n_storeys**1.5 for motion in motions]
+    what = f"a sweep of {len(motions) * histories:.4g} histories"
+    refuse_large(8.0 * len(motions) * histories * grid.n_storeys * 2 * len(wanted), what)
+    seconds = [
+        histories
+        * max(seconds_of_history(building, motion.dt, motion.n) for building in grid.buildings)
+        * math.sqrt(max(1.0, float(grid.stiffness_scale.mean())))
+        for motion in motions
+    ]
+    refuse_long(sum(seconds), SWEEP_HOURS, what)
+    warn_of_units(
+        motions,
+        period=[building.bare_periods[0] for building in grid.buildings],
+        slip_force=grid.slip_force,
+        floor_mass=[building.floor_mass.min() for building in grid.buildings],
+    )
     tasks = plan(histories, seconds, cells_per_task, "cells_per_task")
+    if (expected := sum(seconds) / cores()) > LONG:
+        log.warning(
+            "about %.0f min of work are held in memory until the end, and lost when it is stopped; sweep a "
+            "few buildings or records at a time, and save each",
+            expected / 60.0,
+        )
     parts = fan_out(
         partial(_run, grid, certify),
         motions,

@@ -80,7 +80,9 @@ def test_types_that_are_not_floats():
 def test_flags_name_every_code():
     attributes = CUBE["status"].cf_attributes
     assert attributes["flag_meanings"] == " ".join(types.STATUS_MEANINGS)
-    np.testing.assert_array_equal(attributes["flag_values"], np.arange(len(types.STATUS_MEANINGS), dtype=np.int8))
+    np.testing.assert_array_equal(
+        attributes["flag_values"], np.arange(len(types.STATUS_MEANINGS), dtype=np.int8)
+    )
     assert attributes["flag_values"].dtype == np.int8
     assert len(str(HISTORY["phase"].cf_attributes["flag_meanings"]).split()) == len(PHASES)
     assert len(str(attributes["flag_meanings"]).split()) == len(STATUSES)
@@ -145,4 +147,5 @@ def test_flags_agree_with_the_kernels():
     assert STATUSES[types.OK] == "ok"
     assert STATUSES[types.TRANSITION_CAP_REACHED] == "transition_cap_reached"
     assert STATUSES[types.NON_FINITE_STATE] == "non_finite_state"
+    assert STATUSES[types.ENERGY_NOT_CLOSED] == "energy_not_closed"
     assert PHASES[types.STICK] == "stick"
