@@ -42,6 +42,7 @@ from fdspec.kernels.frame.peaks import PEAK_ROWS, raise_peaks
 from fdspec.kernels.frame.reset import (
     RELEASE,
     TALLY_ROWS,
+    begin_free,
     begin_slip,
     returns_at_once,
     stay_sprung,
@@ -59,8 +60,11 @@ from fdspec.kernels.frame.taylor import (
     end_of_step,
     order_for,
     reaction_now,
+    relax,
 )
 from fdspec.kernels.types import (
+    ENERGY_NOT_CLOSED,
+    ENERGY_TOLERANCE,
     NON_FINITE_STATE,
     OK,
     TRANSITION_CAP,
@@ -86,7 +90,12 @@ STOREY_RESULTS = (
     "storey_transitions",
     "storey_friction_energy",
 )
-"""Rows of ``by_storey`` (11, N); the first six are the peaks."""
+"""First rows of ``by_storey`` (18, N); the first six of them are the peaks."""
+
+END = len(STOREY_RESULTS)
+END_ROWS = 7
+"""First row and number of the rows that follow, the state at the end: displacement, velocity, offset, sliding
+velocity, phase, and how the next segment begins."""
 
 COUNTS = 9
 """Row of the number of changes of phase."""
@@ -160,32 +169,51 @@ def history(
             state[OFFSET, i] = 0.0
         tally[0, i] = state[OFFSET, i]
         set_phase(frame, model, phase, i)
+    resumes = start.shape[0] == END_ROWS
+    if resumes:
+        for i in range(size):
+            for k in range(4):
+                state[k, i] = start[k, i]
+            tally[0, i] = state[OFFSET, i]
+            phase[i] = int(start[4, i])
+            fresh[i] = int(start[5, i])
+            touching[i] = int(start[6, i])
     stored = stored_energy(frame, dense_stiffness, state)
     transitions = 0
-    for i in range(size):
-        if kind[i] == NO_BRACE:
-            continue
-        reaction = reaction_now(frame, model, stiffness_lanes, damping_lanes, state, i)
-        if frame[SLIP_FORCE, i] == 0.0:
-            speed = state[SLIDING, i]
-            begin_slip(frame, kind, phase, fresh, state, tally, i, 1 if speed >= 0.0 else -1)
-            state[SLIDING, i] = speed
-            fresh[i] = 0
-        elif state[SLIDING, i] != 0.0:
-            phase[i] = 1 if state[SLIDING, i] > 0.0 else -1
-        elif abs(reaction) > frame[SLIP_FORCE, i]:
-            begin_slip(frame, kind, phase, fresh, state, tally, i, 1 if reaction > 0.0 else -1)
-            fresh[i] = min(fresh[i], 1)
-            changes = 2 if returns_at_once(frame, kind, phase, state, i) else 1
+    # Massless braces first: what they do at once is felt in the storeys below, and not the other way.
+    for turn in range(2):
+        for i in range(size):
+            if resumes or kind[i] == NO_BRACE or (kind[i] == MASSLESS) != (turn == 0):
+                continue
+            reaction = reaction_now(frame, model, stiffness_lanes, damping_lanes, state, i)
+            changes = 0
+            if frame[SLIP_FORCE, i] == 0.0:
+                if kind[i] == MASSLESS:
+                    begin_free(frame, phase, fresh, state, tally, i)
+                else:
+                    speed = state[SLIDING, i]
+                    begin_slip(frame, kind, phase, fresh, state, tally, i, 1 if speed >= 0.0 else -1, False)
+                    state[SLIDING, i] = speed
+                    fresh[i] = 0
+            elif state[SLIDING, i] != 0.0:
+                phase[i] = 1 if state[SLIDING, i] > 0.0 else -1
+            elif abs(reaction) > frame[SLIP_FORCE, i]:
+                begin_slip(frame, kind, phase, fresh, state, tally, i, 1 if reaction > 0.0 else -1, False)
+                # The reaction is beyond the limit, not at it: sliding accelerates, or a dashpot lets it begin
+                # with (|R| - F) / c_d.
+                fresh[i] = 1 if kind[i] == PLAIN else 0
+                changes = 2 if returns_at_once(frame, kind, phase, state, i) else 1
             for change in range(changes):
                 if change > 0:
-                    stay_sprung(frame, phase, fresh, touching, state, tally, i)
+                    stay_sprung(phase, fresh, touching, state, tally, i)
                 if transitions < times.size:
                     times[transitions] = 0.0
                     storeys[transitions] = i
                     phases[transitions] = phase[i]
                 transitions += 1
                 counts[i] += 1.0
+            if turn == 0:
+                set_phase(frame, model, phase, i)
     for i in range(size):
         set_phase(frame, model, phase, i)
     rate = fastest_rate(model, phase, held_rate)
@@ -193,6 +221,7 @@ def history(
     tracing = traces.shape[0] > 0
     status = OK
     work_in = 0.0
+    most_in = 0.0
     viscous = 0.0
     written = 0
     events = 0
@@ -205,6 +234,10 @@ def history(
             slope = (ground[step + 1] - a0) / dt
         tau = 0.0
         while True:
+            if massless:
+                relax(frame, model, kind, phase, fresh, state)
+                rate = fastest_rate(model, phase, held_rate)
+            radian = min(dt, 1.0 / rate)
             parts = max(1, math.ceil((dt - tau) * rate / radians - 1e-9))
             h = (dt - tau) / parts
             n = order_for(rate * h, extra)
@@ -223,11 +256,14 @@ def history(
                 fresh,
                 touching,
                 state,
+                tally,
                 series,
                 momentum,
                 reach,
                 n,
                 h,
+                step * dt + tau,
+                radian,
                 acceleration,
                 rise,
                 c,
@@ -266,6 +302,7 @@ def history(
                     written += 1
             if done > 0.0:
                 work_in += input_work(momentum, n, h, acceleration, rise, done)
+                most_in = max(most_in, abs(work_in))
                 if certify or tracing:
                     viscous += viscous_work(frame, dense_damping, damped, series, n, h, done, speeds)
                 end_of_step(series, n, done, state)
@@ -293,6 +330,7 @@ def history(
                 signs,
                 x,
                 step * dt + tau,
+                radian,
                 times,
                 storeys,
                 phases,
@@ -323,14 +361,24 @@ def history(
         by_storey[7, i] = state[DISPLACEMENT, i] - state[OFFSET, i]
         by_storey[8, i] = travel
         by_storey[10, i] = work
+        for k in range(4):
+            by_storey[END + k, i] = state[k, i]
+        by_storey[END + 4, i] = phase[i]
+        by_storey[END + 5, i] = fresh[i]
+        by_storey[END + 6, i] = touching[i]
     error = 0.0
     if certify:
-        scale = abs(work_in) + stored
+        # Net input may be zero, as over whole periods of a frame without damping; what the balance has to
+        # resolve is the most that was ever put in.
+        scale = max(most_in + stored, viscous + friction)
         if scale > 0.0:
             now = stored_energy(frame, dense_stiffness, state)
             error = abs(work_in + stored - now - viscous - friction) / scale
-    if status == OK and not math.isfinite(friction + viscous + work_in + error):
-        status = NON_FINITE_STATE
+    if status == OK:
+        if not math.isfinite(friction + viscous + work_in + error):
+            status = NON_FINITE_STATE
+        elif error > ENERGY_TOLERANCE:
+            status = ENERGY_NOT_CLOSED
     totals[0] = transitions
     totals[1] = friction
     totals[2] = viscous
@@ -394,12 +442,13 @@ def integrate(
     frame (FRAME_ROWS, N), dense_stiffness and dense_damping (N, N), or (0, 0) where there is nothing
     beside the springs and dashpots of ``frame``: see :mod:`fdspec.kernels.frame.model`.  ground: acceleration
     at the samples dt apart, m/s2, (n,); free_steps: steps of dt with the ground at rest that follow.
-    start (4, N): displacement and velocity of floors, then of braces, at t = 0.  radians: longest phase
-    of a step; extra: terms beyond those the series needs.
+    start (4, N): displacement and velocity of floors, then of braces, at t = 0; or (7, N): the rows of the
+    end of another history, from which this one goes on.  radians: longest phase of a step; extra: terms
+    beyond those the series needs.
 
     times, storeys, phases (as many as there is room for): changes of phase in the order of time.
     traces (m, len(STOREY_TRACES), N), energies (m, len(TOTAL_TRACES)): filled at k dt_out for k < m.
-    by_storey (len(STOREY_RESULTS), N), totals (len(TOTALS),): results.  viscous_energy and energy_error
+    by_storey (END + END_ROWS, N), totals (len(TOTALS),): results.  viscous_energy and energy_error
     are worked out where ``certify`` says so; traces need the first and cost it.
     """
     size = frame.shape[1]
