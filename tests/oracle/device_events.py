@@ -2,8 +2,8 @@
 
 Floor (u, v) and brace (d, e), a friction damper between them, columns that yield, a slot that ends, a
 re-centring spring across the slider, gravity.  The state (u, v, d, e, a, slope, 1, p) of every combination of
-modes obeys y' = A y.  A record step is sampled many times a radian of the brace; a guard that changes its sign
-between two samples is located by Brent's method on the exponential itself.  Slow and plain.
+modes obeys y' = A y.  A record step is sampled many times a radian of the brace; a guard that changes its
+sign between two samples is located by Brent's method on the exponential itself.  Slow and plain.
 """
 
 from __future__ import annotations
@@ -185,7 +185,7 @@ def integrate(storey, ground, dt):
                         continue
                     if name in touching or here[name] <= 0.0:
                         # begins at its limit: what counts is which way it goes
-                        hits.append((0.0, name) if name not in touching else (0.0, name))
+                        hits.append((0.0, name))
                         continue
 
                     def guard(time, name=name, y=y, mode=mode):
@@ -205,9 +205,7 @@ def integrate(storey, ground, dt):
                 mode, kind = _change(storey, mode, y, name)
                 if kind is not None:
                     counts[kind] += 1
-                touching = {
-                    known for known, value in _guards(storey, mode, y).items() if abs(value) <= TIGHT
-                }
+                touching = {known for known, value in _guards(storey, mode, y).items() if abs(value) <= TIGHT}
                 _raise(storey, mode, y, y, 0.0, peaks)
                 if left <= 1e-13 * span:
                     break
