@@ -18,14 +18,16 @@ from numpy.typing import ArrayLike, NDArray
 from fdspec.errors import InvalidInput
 from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.methods.batch import integrate_by_method
+from fdspec.model.building import Building, ModalDamping
 from fdspec.model.grid import Grid
 from fdspec.model.motion import GroundMotion
+from fdspec.runs.after import After, zero_or_positive
 from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_sweep
 from fdspec.runs.cube import assemble, chosen, named
 from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.threads import Task, cores, fan_out, plan
-from fdspec.variables import CUBE, STUDY_DIMS
+from fdspec.variables import CUBE, STUDY_DIMS, device_variables
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -62,7 +64,10 @@ BRACED: Final = {
 STRAIN: Final = ("strain_energy_area", "peak_strain_energy")
 """Results of a pass of their own over every history."""
 
-RESPONSES: Final = tuple(v.name for v in CUBE.values() if v.dims == STUDY_DIMS)
+DEMANDS: Final = tuple(v.name for v in device_variables(()))
+"""Outputs of frames with devices alone."""
+
+RESPONSES: Final = tuple(v.name for v in CUBE.values() if v.dims == STUDY_DIMS and v.name not in DEMANDS)
 _KNOWN: Final = (*RESPONSES, *BARE, *BRACED)
 OUTPUTS: Final = tuple(name for name in _KNOWN if not CUBE[name].on_request)
 ON_REQUEST: Final = tuple(name for name in _KNOWN if CUBE[name].on_request)
@@ -83,6 +88,15 @@ def sweep(
     kinetic_friction_coefficient: float | None = None,
     normal_force_factor: float = 1.0,
     brace_damping_ratio: float = 0.0,
+    storey_height: float | None = None,
+    yield_shear: float | None = None,
+    hardening_ratio: float = 0.0,
+    gravity_load: float | None = None,
+    slot_length: float | None = None,
+    slot_stiffness: float | None = None,
+    recentring_stiffness: float | None = None,
+    free_vibration: float = 0.0,
+    at_rest: bool = False,
     outputs: Iterable[str] | None = None,
     certify: bool = True,
     workers: int | None = None,
@@ -113,6 +127,20 @@ def sweep(
         Of the frame without its brace, and of the brace on its own.
     friction_coefficient, kinetic_friction_coefficient, normal_force_factor : float
         Slip force = friction_coefficient * normal_force_factor * pretension.
+    storey_height, yield_shear, hardening_ratio, gravity_load, slot_length, slot_stiffness,
+    recentring_stiffness : float, optional
+        Devices of all frames alike, as for `fdspec.Building`: columns that yield, gravity, slots, re-centring
+        springs.  With them each history is integrated by itself, a thousand times slower, the cube has the
+        demands of `fdspec.variables.device_variables` too, and a history may end with the status
+        ``collapsed``.  The limits that ride along stay those of the elastic frame.
+    free_vibration : float, s
+        How long each history goes on after its motion's end, the ground at rest; rounded up to whole steps of
+        the motion.
+    at_rest : bool
+        Go on from there until the energy left can make no damper slip, and give ``residual_displacement`` and
+        ``residual_slip`` where the frame comes to rest: 0 where a damper has no friction. Peaks are those up
+        to where nothing slips any more. A history that takes more than 2 million steps to get there has the
+        status ``transition_cap_reached``.
     outputs : iterable of str, optional
         Variables of the cube; unless given, all but those of `ON_REQUEST`.
     certify : bool
@@ -163,18 +191,37 @@ def sweep(
         kinetic_friction_coefficient=kinetic_friction_coefficient,
         normal_force_factor=normal_force_factor,
         brace_damping_ratio=brace_damping_ratio,
+        storey_height=storey_height,
+        yield_shear=yield_shear,
+        hardening_ratio=hardening_ratio,
+        gravity_load=gravity_load,
+        slot_length=slot_length,
+        slot_stiffness=slot_stiffness,
+        recentring_stiffness=recentring_stiffness,
     )
     motions = named(motions)
-    wanted = chosen(OUTPUTS if outputs is None else outputs, (*OUTPUTS, *ON_REQUEST), certify)
+    usual = usual_outputs(grid)
+    wanted = chosen(usual if outputs is None else outputs, (*usual, *ON_REQUEST), certify)
     strain = [name for name in wanted if BARE.get(name, name) in STRAIN]
     other = chosen_method(method)
     if strain and other is not None:
         raise InvalidInput(f"outputs {', '.join(strain)} need method 'exact', got {other.name!r}")
+    if grid.devices and (strain or other is not None):
+        what = f"method {other.name!r}" if other is not None else f"outputs {', '.join(strain)}"
+        raise InvalidInput(f"{what}: not for frames with {', '.join(grid.devices)}")
     n_sr, n_f, n_t = grid.shape
     seconds = seconds_of_sweep(grid, motions, certify)
     refuse_endless(motions, grid, wanted, sum(seconds), store)
     warn_of_units(motions, period=grid.period, slip_force=grid.slip_force, floor_mass=grid.floor_mass)
-    run = partial(_run_columns, grid, certify, bool(strain), other)
+    after = After(zero_or_positive("free_vibration", free_vibration), at_rest)
+    if strain and (free_vibration or at_rest):
+        raise InvalidInput(
+            f"outputs {', '.join(strain)} end with the motion: not with free_vibration or at_rest"
+        )
+    if at_rest and (other is not None or grid.devices):
+        what = f"method {other.name!r}" if other is not None else "frames with devices"
+        raise InvalidInput(f"at_rest is for the exact method and dampers alone, not for {what}")
+    run = partial(_run_columns, grid, certify, bool(strain), other, after=after)
     fan = partial(
         fan_out,
         motions=motions,
@@ -185,7 +232,6 @@ def sweep(
         client=client,
         progress=progress,
     )
-    parameters = {name: getattr(grid, name) for name in grid.__dataclass_fields__}
     cube_of = partial(
         assemble,
         axes={
@@ -199,8 +245,9 @@ def sweep(
         motions=motions,
         title="Peak response of single-storey frames with friction dampers",
         parameters={
-            **parameters,
+            **grid.parameters,
             **({} if other is None else other.parameters),
+            **after.parameters,
             "certify": certify,
             "outputs": list(wanted),
         },
@@ -305,6 +352,18 @@ def timed(grid: Grid, motion: GroundMotion, certify: bool = True) -> tuple[float
     return time.thread_time() - started, int(results[:, :, RESULTS.index("transitions")].sum())
 
 
+def usual_outputs(grid: Grid) -> tuple[str, ...]:
+    """Return what a sweep computes unless it is told otherwise."""
+    return (*OUTPUTS, *_demands(grid))
+
+
+def _demands(grid: Grid) -> tuple[str, ...]:
+    """Return what only a cube of frames with devices or of known height has."""
+    if not grid.devices:
+        return () if grid.storey_height is None else ("peak_drift_ratio",)
+    return tuple(name for name in DEMANDS if name != "peak_drift_ratio" or grid.storey_height is not None)
+
+
 def _warm() -> None:
     import fdspec.engines.batch  # noqa: F401
 
@@ -331,6 +390,7 @@ def _run_columns(
     other: Method | None,
     columns: IntArray,
     motion: GroundMotion,
+    after: After = After(),
 ) -> Columns:
     """Integrate some (stiffness ratio, period) pairs: all pretensions, never slipping, without brace.
 
@@ -339,14 +399,18 @@ def _run_columns(
     from fdspec.engines.batch import integrate_columns
 
     frames = _frames(grid, columns)
-    exact = slice(None) if other is None else slice(0)
+    exact = slice(None) if other is None and not grid.devices else slice(0)
     slip_force, kinetic = grid.slip_force, grid.kinetic_slip_force
-    braced, results = integrate_columns(frames, slip_force[exact], kinetic[exact], motion, certify=certify)
+    free_steps = after.free_steps(motion)
+    integrate = partial(integrate_columns, free_steps=free_steps, at_rest=after.at_rest)
+    braced, results = integrate(frames, slip_force[exact], kinetic[exact], motion, certify=certify)
+    if grid.devices:
+        results = _run_devices(grid, frames, motion, free_steps)
     if other is not None:
-        results = integrate_by_method(other, frames, slip_force, kinetic, motion)
+        results = integrate_by_method(other, frames, slip_force, kinetic, motion, free_steps)
     bare = frames[columns < grid.period.size].copy()  # the first stiffness ratio's pairs stand for all
     bare[:, 3:] = 0.0
-    free, _ = integrate_columns(bare, np.empty(0), np.empty(0), motion, certify=False)
+    free, _ = integrate(bare, np.empty(0), np.empty(0), motion, certify=False)
     if strain:
         from fdspec.engines.strain import strain_of_columns
 
@@ -355,6 +419,30 @@ def _run_columns(
         results = np.concatenate([results, added], axis=-1)
         free = np.concatenate([free, strain_of_columns(bare, *never, motion)[:, 0]], axis=-1)
     return results, braced, free
+
+
+def _run_devices(grid: Grid, frames: FloatArray, motion: GroundMotion, free_steps: int) -> FloatArray:
+    """Integrate frames (m, 6) with devices, all pretensions: (m, n_f, results) in the order of `_rows`."""
+    from fdspec.engines.devices import peaks_of
+
+    rows = _rows(grid)
+    results = np.empty((frames.shape[0], grid.pretension.size, len(rows)))
+    for i, (m_f, _, k_f, m_d, c_d, k_d) in enumerate(frames):
+        for j, forces in enumerate(zip(grid.slip_force, grid.kinetic_slip_force, strict=True)):
+            damping = ModalDamping(grid.damping_ratio)
+            building = Building(m_f, k_f, m_d, k_d, *forces, damping, c_d, **grid.devices)
+            storey, whole = peaks_of(building, motion, free_steps)
+            found = {name: float(values[0]) for name, values in storey.items()} | whole
+            found["peak_base_shear"] = found["peak_storey_shear"]
+            results[i, j] = [found[name] for name in rows]
+    return results
+
+
+def _rows(grid: Grid) -> tuple[str, ...]:
+    """Return the results of a history, in their order."""
+    from fdspec.kernels.storey.history import RESULTS
+
+    return (*RESULTS, *_demands(grid)) if grid.devices else (*RESULTS, *STRAIN)
 
 
 def _block(
@@ -379,19 +467,22 @@ def _variables(
     wanted: Sequence[str],
 ) -> dict[str, NDArray[Any]]:
     """Put what the tasks returned where it stands in the cube."""
-    from fdspec.kernels.storey.history import RESULTS
-
-    rows = (*RESULTS, *STRAIN)
+    rows = _rows(grid)
     n_sr, n_f, n_t = grid.shape
     responses: dict[str, NDArray[Any]] = {
-        name: np.empty((n_r, n_sr, n_f, n_t), dtype=CUBE[name].dtype) for name in wanted if name in rows
+        name: np.empty((n_r, n_sr, n_f, n_t), dtype=CUBE[name].dtype)
+        for name in wanted
+        if CUBE[name].dims == STUDY_DIMS
     }
     bare: dict[str, NDArray[Any]] = {name: np.empty((n_r, n_t)) for name in wanted if name in BARE}
     braced: dict[str, NDArray[Any]] = {name: np.empty((n_r, n_sr, n_t)) for name in wanted if name in BRACED}
     for (r, columns), (out, held, free) in zip(tasks, parts, strict=True):
         ratio, period = np.unravel_index(columns, (n_sr, n_t))
         for name, values in responses.items():
-            values[r, ratio, :, period] = out[:, :, rows.index(name)]
+            if name == "peak_drift_ratio":
+                values[r, ratio, :, period] = out[:, :, rows.index("peak_displacement")] / grid.storey_height
+            else:
+                values[r, ratio, :, period] = out[:, :, rows.index(name)]
         for name, values in braced.items():
             values[r, ratio, period] = held[:, rows.index(BRACED[name])]
         for name, values in bare.items():

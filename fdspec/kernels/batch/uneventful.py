@@ -274,7 +274,7 @@ def slip_lanes(p, h, ground, rate):
         crest_s = fma(m, max(max(abs(q0), abs(q1)), crest_q), crest_s)
         crest_s = min(crest_s, max(max(abs(s0), abs(s1)), inside))
         shear = max(at(p, PEAK_SHEAR, lane), abs(s1))
-        # The brace carries friction less its own inertia: that of its quasi-static motion, and of its ringing.
+        # The brace carries friction less its inertia: that of its quasi-static motion, and of its ringing.
         f0 = fma(g_b, e, w2_b * d)
         f1 = fma(g_b, e1, w2_b * d1)
         inside = max(
