@@ -50,8 +50,8 @@ def peaks_of(
 ) -> tuple[FloatArray, FloatArray]:
     """Integrate a frame from rest, without its course in time.
 
-    certify: whether the balance of all energies is wanted.  free_steps: steps of dt with the ground at rest that
-    follow.  Returns the rows of STOREY_RESULTS for each
+    certify: whether the balance of all energies is wanted.  free_steps: steps of dt with the ground at rest
+    that follow.  Returns the rows of STOREY_RESULTS for each
     storey (rows, N), and TOTALS.
     """
     size = frame.properties.shape[1]

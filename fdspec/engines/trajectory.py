@@ -106,3 +106,16 @@ class Span:
     """Time between outputs, s."""
     outputs: int
     """Number of outputs, the first at t = 0."""
+
+
+@dataclass(frozen=True)
+class Rest:
+    """How a building comes to rest once its dampers can slip no more."""
+
+    steps: int
+    """Steps of the record's dt, the ground at rest, until nothing can slip any more."""
+    displacement: FloatArray
+    """(N,) m, in the end"""
+    slip: FloatArray
+    """(N,) m"""
+    status: int = 0

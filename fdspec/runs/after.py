@@ -29,6 +29,10 @@ class After:
         return {name: value for name, value in there.items() if value}
 
 
+NOTHING = After()
+"""A history that ends with its motion."""
+
+
 def zero_or_positive(name: str, value: object) -> float:
     """Return a time in s, or raise InvalidInput by this name."""
     if isinstance(value, bool) or not (isinstance(value, int | float) and 0.0 <= value < math.inf):

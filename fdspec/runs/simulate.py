@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from fdspec.engines.demands import brace_force_of, column_shear_of
 from fdspec.engines.step_count import refuse_endless
-from fdspec.engines.trajectory import Course, CourseWithDevices, DeviceCourse, FloatArray, Span
+from fdspec.engines.trajectory import Course, CourseWithDevices, DeviceCourse, FloatArray, Rest, Span
 from fdspec.errors import IntegrationError, InvalidInput
 from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.model.building import Building
@@ -39,6 +40,7 @@ def simulate(
     initial_displacement: ArrayLike | None = None,
     initial_velocity: ArrayLike | None = None,
     start_from: xr.Dataset | None = None,
+    at_rest: bool = False,
     max_steps: float | None = None,
 ) -> xr.Dataset:
     """Integrate one history exactly, event by event, or by another method; return its course in time.
@@ -58,6 +60,9 @@ def simulate(
     free_vibration : float, s
         How long to go on after the motion's end, the ground at rest; rounded up to whole steps of
         the motion.
+    at_rest : bool
+        Go on from there until the energy left can make no damper slip, and give ``residual_displacement``,
+        ``residual_drift`` and ``residual_slip`` where the building comes to rest.
     initial_displacement, initial_velocity : array_like, m and m/s, optional
         Relative to the ground: shape (N,) for the floors, each brace moving with its floor as if no
         damper had ever slipped; shape (2, N) for floors and braces apart.
@@ -126,6 +131,10 @@ def simulate(
             raise InvalidInput(f"start_from needs method 'exact', got {other.name!r}")
     if other is None:
         refuse_endless(building, motion.dt, motion.n - 1 + span.free_steps, max_steps)
+    rest = None
+    if at_rest:
+        rest = _rest(building, motion, span, start, resume, other)
+        span = _span(motion, dt_out, free_vibration, rest.steps)
     if other is not None:
         if building.has_devices:
             raise InvalidInput(
@@ -157,6 +166,8 @@ def simulate(
             f"the history of {building!r} under {motion.name or 'the motion'} ended with status "
             f"{STATUSES[course.status]} after {course.transition_time.size} changes of phase"
         )
+    if rest is not None:
+        course = replace(course, residual_displacement=rest.displacement, residual_slip=rest.slip)
     solved = building if other is None else other.model(building)
     return _dataset(solved, motion, span, start, course, {} if other is None else other.parameters)
 
@@ -175,13 +186,41 @@ def _end_of(history: object, building: Building) -> FloatArray:
     return np.array(history["end_state"].values, dtype=np.float64)
 
 
-def _span(motion: GroundMotion, dt_out: object, free_vibration: object) -> Span:
+def _rest(
+    building: Building,
+    motion: GroundMotion,
+    span: Span,
+    start: FloatArray,
+    resume: FloatArray | None,
+    other: Method | None,
+) -> Rest:
+    """Find when and where the building comes to rest."""
+    if other is not None or building.has_devices:
+        what = f"method {other.name!r}" if other is not None else "buildings with devices"
+        raise InvalidInput(f"at_rest is for the exact method and dampers alone, not for {what}")
+    if building.n_storeys == 1:
+        from fdspec.engines.single_storey import rest_of_single_storey
+
+        rest = rest_of_single_storey(building, motion, span, start, resume)
+    else:
+        from fdspec.engines.rest import rest_of_building
+
+        rest = rest_of_building(building, motion, span, start, resume)
+    if rest.status != 0:
+        raise IntegrationError(
+            f"{building!r} has not come to rest {rest.steps * motion.dt:g} s after the motion; "
+            f"status {STATUSES[rest.status]}"
+        )
+    return rest
+
+
+def _span(motion: GroundMotion, dt_out: object, free_vibration: object, more_steps: int = 0) -> Span:
     if not (isinstance(free_vibration, int | float) and 0.0 <= free_vibration < math.inf):
         raise InvalidInput(f"free_vibration must be zero or a positive time in s, got {free_vibration!r}")
     every = motion.dt if dt_out is None else dt_out
     if not (isinstance(every, int | float) and 0.0 < every < math.inf):
         raise InvalidInput(f"dt_out must be a positive time in s, got {dt_out!r}")
-    free_steps = math.ceil(free_vibration / motion.dt - 1e-9)
+    free_steps = math.ceil(free_vibration / motion.dt - 1e-9) + more_steps
     total = (motion.n - 1 + free_steps) * motion.dt
     outputs = math.floor(total / every + ROUNDING) + 1
     if outputs > MAX_OUTPUTS:

@@ -21,7 +21,7 @@ from fdspec.methods.batch import integrate_by_method
 from fdspec.model.building import Building, ModalDamping
 from fdspec.model.grid import Grid
 from fdspec.model.motion import GroundMotion
-from fdspec.runs.after import After, zero_or_positive
+from fdspec.runs.after import NOTHING, After, zero_or_positive
 from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_sweep
 from fdspec.runs.cube import assemble, chosen, named
 from fdspec.runs.plausible import warn_of_units
@@ -390,7 +390,7 @@ def _run_columns(
     other: Method | None,
     columns: IntArray,
     motion: GroundMotion,
-    after: After = After(),
+    after: After = NOTHING,
 ) -> Columns:
     """Integrate some (stiffness ratio, period) pairs: all pretensions, never slipping, without brace.
 

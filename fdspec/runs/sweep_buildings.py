@@ -12,9 +12,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
+from fdspec.engines.trajectory import Span
+from fdspec.errors import InvalidInput
 from fdspec.model.building import Building, Frame
 from fdspec.model.building_grid import BuildingGrid, Buildings
 from fdspec.model.motion import GroundMotion
+from fdspec.runs.after import NOTHING, After, zero_or_positive
 from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_history
 from fdspec.runs.cube import assemble, chosen, named
 from fdspec.runs.plausible import warn_of_units
@@ -48,6 +51,8 @@ def sweep_buildings(
     *,
     slip_scale: ArrayLike,
     stiffness_scale: ArrayLike,
+    free_vibration: float = 0.0,
+    at_rest: bool = False,
     outputs: Iterable[str] | None = None,
     certify: bool = True,
     workers: int | None = None,
@@ -75,6 +80,12 @@ def sweep_buildings(
     stiffness_scale : array_like
         Factors on the stiffness of all braces, positive, strictly increasing.  A dashpot beside a brace
         goes with the square root: the brace keeps its damping ratio.  The frame's own damping stays.
+    free_vibration : float, s
+        How long each history goes on after its motion's end, the ground at rest; rounded up to whole steps of
+        the motion.
+    at_rest : bool
+        Go on from there until the energy left can make no damper slip, and give ``residual_displacement``,
+        ``residual_drift`` and ``residual_slip`` where the building comes to rest; twice the work.
     outputs : iterable of str, optional
         Variables of the cube; all unless given.
     certify : bool
@@ -122,6 +133,9 @@ def sweep_buildings(
     {'record': 1, 'building': 1, 'stiffness_scale': 1, 'slip_scale': 2, 'storey': 2}
     """
     grid = BuildingGrid(buildings, stiffness_scale, slip_scale)
+    after = After(zero_or_positive("free_vibration", free_vibration), at_rest)
+    if at_rest and _with_devices(grid):
+        raise InvalidInput("at_rest is for dampers alone, not for buildings with devices")
     motions = named(motions)
     known = (*OUTPUTS, *_demands(grid))
     wanted = chosen(outputs, known, certify)
@@ -149,7 +163,7 @@ def sweep_buildings(
             expected / 60.0,
         )
     parts = fan_out(
-        partial(_run, grid, certify),
+        partial(_run, grid, certify, after=after),
         motions,
         tasks,
         each=1,
@@ -171,6 +185,7 @@ def sweep_buildings(
             },
             "stiffness_scale": grid.stiffness_scale,
             "slip_scale": grid.slip_scale,
+            **after.parameters,
             "certify": certify,
             "outputs": list(wanted),
         },
@@ -235,15 +250,15 @@ def _warm(devices: bool) -> None:
 
 
 def _run(
-    grid: BuildingGrid, certify: bool, histories: IntArray, motion: GroundMotion
+    grid: BuildingGrid, certify: bool, histories: IntArray, motion: GroundMotion, after: After = NOTHING
 ) -> tuple[FloatArray, FloatArray]:
     """Integrate some histories of a record: results by storey (m, rows, N) and totals (m, entries)."""
-    results = [_run_one(grid, certify, int(history), motion) for history in histories]
+    results = [_run_one(grid, certify, int(history), motion, after) for history in histories]
     return np.stack([by_storey for by_storey, _ in results]), np.stack([totals for _, totals in results])
 
 
 def _run_one(
-    grid: BuildingGrid, certify: bool, history: int, motion: GroundMotion
+    grid: BuildingGrid, certify: bool, history: int, motion: GroundMotion, after: After
 ) -> tuple[FloatArray, FloatArray]:
     """Integrate one history by the engine for its building: rows of `_rows` (rows, N), and TOTALS.
 
@@ -254,20 +269,45 @@ def _run_one(
     from fdspec.kernels.frame.history import STOREY_RESULTS, TOTALS
 
     cell = history < _ends(grid)[0]
+    free_steps = after.free_steps(motion)
+    if after.at_rest and cell:
+        return _run_to_rest(grid, certify, history, motion, free_steps)
     if not _with_devices(grid):
-        return peaks_of(_frame(grid, history), motion, certify=certify and cell)
+        return peaks_of(_frame(grid, history), motion, certify=certify and cell, free_steps=free_steps)
     if not cell:
-        by_storey, totals = peaks_of(_frame(grid, history), motion, certify=False)
+        by_storey, totals = peaks_of(_frame(grid, history), motion, certify=False, free_steps=free_steps)
         missing = np.zeros((len(_rows(grid)) - len(STOREY_RESULTS), grid.n_storeys))
         return np.concatenate([by_storey, missing]), totals
     from fdspec.engines.devices import peaks_of as peaks_with_devices
 
     building = _building(grid, history)
-    storeys, whole = peaks_with_devices(building, motion)
+    storeys, whole = peaks_with_devices(building, motion, free_steps)
     table = np.stack([storeys[name] for name in _rows(grid)])
     totals = np.array([whole[name] for name in TOTALS])
     if not building.has_devices:
-        table[: len(STOREY_RESULTS)], totals = peaks_of(_frame(grid, history), motion, certify=certify)
+        table[: len(STOREY_RESULTS)], totals = peaks_of(
+            _frame(grid, history), motion, certify=certify, free_steps=free_steps
+        )
+    return table, totals
+
+
+def _run_to_rest(
+    grid: BuildingGrid, certify: bool, history: int, motion: GroundMotion, free_steps: int
+) -> tuple[FloatArray, FloatArray]:
+    """Integrate one cell until no damper can slip any more, with the position in which it comes to rest."""
+    from fdspec.engines.many_storeys import peaks_of
+    from fdspec.engines.rest import rest_of_building
+    from fdspec.kernels.frame.history import STOREY_RESULTS, TOTALS
+
+    at_start = np.zeros((2, 2, grid.n_storeys))
+    rest = rest_of_building(_building(grid, history), motion, Span(free_steps, motion.dt, 1), at_start)
+    table, totals = peaks_of(
+        _frame(grid, history), motion, certify=certify, free_steps=free_steps + rest.steps
+    )
+    table[STOREY_RESULTS.index("residual_displacement")] = rest.displacement
+    table[STOREY_RESULTS.index("residual_slip")] = rest.slip
+    if rest.status != 0:
+        totals[TOTALS.index("status")] = rest.status
     return table, totals
 
 
