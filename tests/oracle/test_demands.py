@@ -1,7 +1,7 @@
 """Slip, brace force and column shear: peaks of the continuous motion against a history that is told densely.
 
-The dense history is read every hundredth of the record's step, or more often where the brace swings faster than
-that shows.  A peak is at least what is read, and exceeds it by less than neighbouring readings differ.
+The dense history is read every hundredth of the record's step, or more often where the brace swings faster
+than that shows.  A peak is at least what is read, and exceeds it by less than neighbouring readings differ.
 """
 
 from __future__ import annotations
@@ -14,8 +14,7 @@ from numba import config
 
 import fdspec
 from fdspec.engines.batch import integrate_columns
-from fdspec.engines.many_storeys import integrate_many_storeys, peaks_of
-from fdspec.engines.trajectory import Span
+from fdspec.engines.many_storeys import peaks_of
 from fdspec.kernels.frame.history import STOREY_RESULTS
 from fdspec.kernels.storey.history import RESULTS
 from tests.buildings import Case
@@ -138,8 +137,8 @@ def test_slip_and_brace_force_of_a_sudden_load() -> None:
 def test_brace_that_rings_in_slip() -> None:
     """Released at the slip force with kinetic friction below it, the brace rings about the kinetic force.
 
-    The ground rests and the frame is far heavier, so the brace goes from F_st to 2 F_sl - F_st, and its slip is
-    that of the bare brace.
+    The ground rests and the floor is far heavier, so the brace swings as far beyond the kinetic force as it
+    began before it.
     """
     m_f, m_d, k_d, static, kinetic = 1e12, 50.0, 5e6, 10e3, 6e3
     building = fdspec.Building(m_f, 1.0, m_d, k_d, static, kinetic, damping=fdspec.DampingMatrix([[0.0]]))
