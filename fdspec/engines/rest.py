@@ -2,8 +2,8 @@
 
 Once the ground rests and every damper sticks, the frame swings about the position in which its springs
 balance.  Its energy about that position never grows, and bounds how far each reaction swings about its
-value there: a reaction r.x + q.v is at most sqrt(2 E (r K^-1 r + q M^-1 q)).  Where every bound stays below the
-slip force, nothing slips any more.
+value there: a reaction r.x + q.v is at most sqrt(2 E (r K^-1 r + q M^-1 q)).  Where every bound stays below
+the slip force, nothing slips any more.
 """
 
 from __future__ import annotations
