@@ -70,9 +70,18 @@ PHASES: Final = MappingProxyType({-1: "slip_backward", 0: "stick", 1: "slip_forw
 """Phase code -> meaning; forward is a floor that moves faster than its brace."""
 
 STATUSES: Final = MappingProxyType(
-    {0: "ok", 1: "transition_cap_reached", 2: "non_finite_state", 3: "iteration_not_converged"}
+    {
+        0: "ok",
+        1: "transition_cap_reached",
+        2: "non_finite_state",
+        3: "iteration_not_converged",
+        4: "energy_not_closed",
+    }
 )
-"""Status code -> meaning, as the kernels return them; the last comes from methods that iterate alone."""
+"""Status code -> meaning, as the kernels return them."""
+
+NOT_COMPUTED: Final = -1
+"""Status of a cell that no sweep has come to yet."""
 
 
 def motion_variables(dims: tuple[str, ...]) -> tuple[Variable, ...]:
@@ -113,7 +122,7 @@ def response_variables(grid: tuple[str, ...], storey: tuple[str, ...] = ()) -> t
         Variable("transitions", grid, "1", f"number of changes of phase of {dampers}", "int64"),
         Variable("dissipated_energy", grid, "J", f"energy dissipated by friction in {dampers}"),
         Variable("input_energy", grid, "J", "energy put in by the ground motion, in the ground's frame"),
-        Variable("energy_error", grid, "1", "error of the energy balance relative to the input energy"),
+        Variable("energy_error", grid, "1", "error of the energy balance relative to the energy in play"),
         Variable("status", grid, "", "how the integration ended", "int8", _flags(STATUSES)),
     )
 
@@ -287,7 +296,7 @@ HISTORY: Final[Registry] = registry_of(
         Variable("storey_transitions", _STOREY, "1", "number of changes of phase of the damper", "int64"),
         Variable("transitions", (), "1", "number of changes of phase of all dampers", "int64"),
         Variable("dissipated_energy", (), "J", "energy dissipated by friction in all dampers, in total"),
-        Variable("energy_error", (), "1", "error of the energy balance relative to the input energy"),
+        Variable("energy_error", (), "1", "error of the energy balance relative to the energy in play"),
         Variable("status", (), "", "how the integration ended", "int8", _flags(STATUSES)),
     ),
 )

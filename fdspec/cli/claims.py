@@ -42,8 +42,10 @@ def claims(cube: str, factor: float, form: str | None) -> None:
     """
     from fdspec import store
     from fdspec.measures.claims import study_claims
+    from fdspec.store.suitable import require_cube
 
     dataset = store.open(cube)
+    require_cube(dataset, cube, "the study's claims")
     found = study_claims(dataset, normal_force_factor=factor)
     if form == "json":
         click.echo(_as_json(found))

@@ -38,6 +38,7 @@ def explore(cube: str, records: tuple[str, ...], host: str, port: int, no_browse
     says otherwise. `fdspec export CUBE.nc --html` writes a page that needs no server.
     """
     from fdspec import store
+    from fdspec.store.suitable import require_cube
 
     try:
         from fdspec.explore import Content, Rerun, serve
@@ -48,6 +49,7 @@ def explore(cube: str, records: tuple[str, ...], host: str, port: int, no_browse
 
     files = read_given(records)
     opened = store.open(cube, lazily=True)
+    require_cube(opened, cube, "pages")
     content = Content(opened, Path(cube).name)
     rerun = Rerun(opened, files, Path(cube).parent)
     if not is_loopback(host):

@@ -86,11 +86,13 @@ def figures(
     from fdspec.report.study_figures import applied_motions, chosen, study_pictures
     from fdspec.runs.study import Study
     from fdspec.scheduling.progress import progress
+    from fdspec.store.suitable import require_cube
 
     millimetres = _millimetres(width)
     if panels is not None and width is None:
         raise click.UsageError("--panels goes with --width.")
     dataset = store.open(cube)
+    require_cube(dataset, cube, "the study's figures")
     given = Study.read(study_file).motions() if study_file else ()
     pictures = chosen(study_pictures(dataset, given), _numbers(only))
     if listed:

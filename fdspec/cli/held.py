@@ -22,11 +22,15 @@ def holds(path: Path, study: Study, motions: Sequence[GroundMotion]) -> bool:
     from fdspec.runs.cube import chosen
     from fdspec.runs.sweep import ON_REQUEST, OUTPUTS
     from fdspec.store import provenance
+    from fdspec.store.netcdf import is_complete
+    from fdspec.store.origin import parameters_of
 
     try:
         with fdspec.open(path) as cube:
             told = dict(cube.attrs)
-        held = json.loads(told.get("parameters", "{}"))
+            if not is_complete(cube):
+                return False
+        held = parameters_of(told)
     except (FdspecError, ValueError):
         return False
     outputs = OUTPUTS if study.outputs is None else study.outputs

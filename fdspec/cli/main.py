@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import sys
 import warnings
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import Final
 
 import click
@@ -32,6 +35,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         warnings.showwarning = _show_warning
         try:
             code = fdspec.main(arguments, prog_name="fdspec", standalone_mode=False)
+            if sys.stdout is not None:
+                sys.stdout.flush()  # a full disk behind it is told here, not as Python ends
         except click.exceptions.NoArgsIsHelpError as error:
             error.show()
             return WRONG_USAGE
@@ -49,17 +54,35 @@ def main(arguments: Sequence[str] | None = None) -> int:
         except MemoryError as error:
             return _fail(f"not enough memory: {error}", FAILED)
         except (click.Abort, KeyboardInterrupt):
-            click.echo("fdspec: interrupted", err=True)
+            _tell("fdspec: interrupted")
             return INTERRUPTED
+        except BrokenPipeError:
+            _forget_stdout()  # the reader has gone
+            return FAILED
+        except OSError as error:
+            _forget_stdout()
+            return _fail(f"cannot write to standard output: {error.strerror or 'it is closed'}", FAILED)
     return code if isinstance(code, int) else DONE
 
 
 def _fail(text: str, code: int) -> int:
     for line in text.splitlines():
-        click.echo(f"fdspec: error: {line}", err=True)
+        _tell(f"fdspec: error: {line}")
     return code
+
+
+def _tell(line: str) -> None:
+    """Write to stderr, where there is one that can be written to; the exit code says the rest."""
+    with suppress(OSError, ValueError):
+        click.echo(line, err=True)
+
+
+def _forget_stdout() -> None:
+    """Keep Python from writing once more, as it ends, what could not be written."""
+    with suppress(OSError, ValueError, AttributeError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _show_warning(message: Warning | str, *_: object, **__: object) -> None:
     text = " ".join(str(message).split())
-    click.echo(f"fdspec: warning: {text}", err=True)
+    _tell(f"fdspec: warning: {text}")

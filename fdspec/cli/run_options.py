@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final, ParamSpec, TypeVar
 
 import click
 
-from fdspec.errors import ClusterError, DiskError, FdspecError
+from fdspec.errors import BusyError, ClusterError, DiskError, FdspecError
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -51,13 +51,13 @@ def run_options(command: Callable[P, R]) -> Callable[P, R]:
     return command
 
 
-def store_of(output: Path, *, resumable: bool | None, expected: float) -> Path | None:
-    """Return the store that the sweep goes through, if any; expected: seconds that it will take."""
+def store_of(output: Path, *, resumable: bool | None, expected: Callable[[], float]) -> Path | None:
+    """Return the store that the sweep goes through, if any; expected: gives the seconds that it will take."""
     if output.suffix == STORE_SUFFIX:
         return output
     store = output.with_suffix(".unfinished.zarr")
     if resumable is None:
-        resumable = store.exists() or expected > LONG
+        resumable = store.exists() or expected() > LONG
     return store if resumable else None
 
 
@@ -110,6 +110,8 @@ def kept(store: Path | None) -> Iterator[None]:
     """When the work stops early, say where what is finished is kept."""
     try:
         yield
+    except BusyError:
+        raise  # another's work, not ours
     except (ClusterError, DiskError, KeyboardInterrupt):
         if store is not None and store.exists():
             click.echo(

@@ -13,6 +13,7 @@ from fdspec.errors import InvalidInput
 from fdspec.explore.indices import Index, known_indices
 from fdspec.explore.packing import pack
 from fdspec.measures import best_on_grid
+from fdspec.store.suitable import loaded
 from fdspec.units import G
 from fdspec.variables import BUILDING_DIMS, STUDY_DIMS
 
@@ -104,7 +105,7 @@ class Content:
         there is none; ``bare`` (period) and ``braced`` (stiffness_ratio, period), the two limits of
         acceleration in g.
         """
-        one = self.cube.isel(record=[k]).load()
+        one = loaded(self.cube.isel(record=[k]), self.name)
         arrays: dict[str, NDArray[np.float64]] = {}
         for index in self.indices:
             values = index.values(one).isel(record=0).transpose(*AXES)

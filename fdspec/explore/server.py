@@ -144,7 +144,11 @@ class _Record(_Answer):
         if int(position) >= len(self.content.records):
             self.refuse(InvalidInput(f"the cube has {len(self.content.records)} records, not {position}"))
             return
-        body = await asyncio.to_thread(self.content.record, int(position))
+        try:
+            body = await asyncio.to_thread(self.content.record, int(position))
+        except FdspecError as error:  # a cube that is damaged, or was removed, since it was opened
+            self.refuse(error)
+            return
         self.set_header("Content-Type", "application/octet-stream")
         self.finish(body)
 

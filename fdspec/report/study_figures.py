@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -29,6 +29,9 @@ RECORD_FIGURES: Final = {
     "FHR3": 18,
 }
 """The study's figure of each of its records."""
+
+LONGEST: Final = 100
+"""Characters of a record's name in the name of a file."""
 
 SHOWN: Final = 15.0
 """Seconds of the first validation problem that its figure shows; after them little moves."""
@@ -140,7 +143,7 @@ def study_pictures(cube: xr.Dataset, given: Sequence[GroundMotion] = ()) -> list
     pictures += [_of_record(finer, name) for name in (*known, *others)]
     if len(motions) > 1 and finer.able and all(name in cube for name in OUTPUTS):
         pictures += [_ensemble(finer), _chart(finer)]
-    return pictures
+    return _distinct(pictures)
 
 
 def applied_motions(
@@ -315,7 +318,9 @@ def _of_record(finer: Finer, record: str) -> Picture:
 
     words = acceleration_caption(finer.cube, record, pretensions=finer.count(record))
     heading = f"absolute acceleration spectra at different pretension forces, {record}"
-    safe = "".join(letter if letter.isalnum() or letter in "-_." else "_" for letter in record).strip(".")
+    safe = "".join(letter if letter.isalnum() or letter in "-_." else "_" for letter in record).strip(".")[
+        :LONGEST
+    ]
     name = f"record-{safe or '_'}" if number is None else f"figure-{number}-{record}"
     return Picture(record if number is None else str(number), name, heading, words, make, printed)
 
@@ -356,6 +361,23 @@ def _chart(finer: Finer) -> Picture:
     )
     title = "peak acceleration over slip force, in units of floor mass and ground peak"
     return Picture("Chart", "chart", title, words, make)
+
+
+def _distinct(pictures: Sequence[Picture]) -> list[Picture]:
+    """Number what would become one file: of records named "a/b" and "a:b" the second is ``record-a_b-2``.
+
+    Names that differ in case alone are one file on some systems.
+    """
+    taken: set[str] = set()
+    named = []
+    for picture in pictures:
+        name, number = picture.name, 1
+        while name.casefold() in taken:
+            number += 1
+            name = f"{picture.name}-{number}"
+        taken.add(name.casefold())
+        named.append(replace(picture, name=name))
+    return named
 
 
 def chosen(pictures: Sequence[Picture], only: Sequence[str]) -> list[Picture]:

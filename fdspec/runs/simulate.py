@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from fdspec.engines.step_count import refuse_endless
 from fdspec.engines.trajectory import Course, FloatArray, Span
 from fdspec.errors import IntegrationError, InvalidInput
 from fdspec.methods import EXACT, Method, chosen_method
@@ -16,6 +17,9 @@ from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
 from fdspec.store import provenance
 from fdspec.variables import HISTORY, STATUSES, describe
+
+ROUNDING = 1e-9
+"""Share of a step by which an instant may lie past one that it is meant to be."""
 
 MAX_OUTPUTS = 50_000_000
 """Output instants; a dt_out with a slipped decimal is refused before it fills the memory."""
@@ -30,6 +34,7 @@ def simulate(
     free_vibration: float = 0.0,
     initial_displacement: ArrayLike | None = None,
     initial_velocity: ArrayLike | None = None,
+    max_steps: float | None = None,
 ) -> xr.Dataset:
     """Integrate one history exactly, event by event, or by another method; return its course in time.
 
@@ -51,6 +56,9 @@ def simulate(
     initial_displacement, initial_velocity : array_like, m and m/s, optional
         Relative to the ground: shape (N,) for the floors, each brace moving with its floor as if no
         damper had ever slipped; shape (2, N) for floors and braces apart.
+    max_steps : float, optional
+        Most steps that the exact method may take, 1e9 (minutes) unless given or set by the environment
+        variable ``FDSPEC_MAX_STEPS``: a slip of a decimal in a mass or in dt would otherwise take days.
 
     Returns
     -------
@@ -89,6 +97,8 @@ def simulate(
         ]
     )
     other = chosen_method(method)
+    if other is None:
+        refuse_endless(building, motion.dt, motion.n - 1 + span.free_steps, max_steps)
     if other is not None:
         course = other.integrate(building, motion, span, start)
     elif building.n_storeys == 1:
@@ -116,7 +126,7 @@ def _span(motion: GroundMotion, dt_out: object, free_vibration: object) -> Span:
         raise InvalidInput(f"dt_out must be a positive time in s, got {dt_out!r}")
     free_steps = math.ceil(free_vibration / motion.dt - 1e-9)
     total = (motion.n - 1 + free_steps) * motion.dt
-    outputs = math.floor(total / every + 1e-9) + 1
+    outputs = math.floor(total / every + ROUNDING) + 1
     if outputs > MAX_OUTPUTS:
         raise InvalidInput(
             f"dt_out {every:g} s gives {outputs:g} outputs over {total:g} s; at most {MAX_OUTPUTS} are kept, "
@@ -143,6 +153,12 @@ def _initial(name: str, given: ArrayLike | None, building: Building) -> FloatArr
     return np.broadcast_to(values, (2, size)).copy()
 
 
+def _ground_at(motion: GroundMotion, time: FloatArray, dt_out: float) -> FloatArray:
+    """Ground acceleration at outputs, of which rounding may put one just behind the record's last sample."""
+    shaking = time <= motion.time[-1] + ROUNDING * dt_out
+    return np.where(shaking, np.interp(time, motion.time, motion.acceleration), 0.0)
+
+
 def _dataset(
     building: Building,
     motion: GroundMotion,
@@ -167,7 +183,7 @@ def _dataset(
     storeys = np.arange(1, building.n_storeys + 1)
     each = ("time", "storey")
     variables: dict[str, Any] = {
-        "ground_acceleration": ("time", np.interp(time, motion.time, motion.acceleration, right=0.0)),
+        "ground_acceleration": ("time", _ground_at(motion, time, span.dt_out)),
         "displacement": (each, course.displacement),
         "velocity": (each, course.velocity),
         "acceleration": (each, course.acceleration),

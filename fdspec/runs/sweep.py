@@ -32,6 +32,12 @@ Columns = tuple[FloatArray, FloatArray, FloatArray]
 SECONDS_PER_SAMPLE: Final = 8e-9
 """Core time of one history for each sample of its record, roughly; for plans, not for results."""
 
+WINDOW: Final = 512
+"""Samples of the record for which histories are computed to see what they cost."""
+
+PROBE: Final = 0.2
+"""s of core time after which enough is known of the cost."""
+
 BARE: Final = {
     "elastic_acceleration": "peak_acceleration",
     "bare_peak_displacement": "peak_displacement",
@@ -202,7 +208,9 @@ def sweep(
             [CUBE[name] for name in wanted],
             partial(_block, grid, run, wanted),
             fan,
-            seconds=sum(seconds),
+            seconds=sum(seconds)
+            if columns_per_task
+            else sum(_measured(motions, grid, certify, bool(strain), other)),
             columns_per_task=columns_per_task,
             restart=restart,
         )
@@ -210,9 +218,46 @@ def sweep(
     return cube_of(_variables(grid, len(motions), tasks, fan(run, tasks=tasks), wanted))
 
 
-def estimate(motions: Sequence[GroundMotion], grid: Grid, certify: bool = True) -> float:
-    """Wall seconds that a sweep is expected to take on this machine's cores, roughly."""
-    return _core_seconds(sum(motion.n for motion in motions), grid, certify) / cores()
+def measured(motions: Sequence[GroundMotion], grid: Grid, certify: bool = True) -> float:
+    """Wall seconds that a sweep takes on this machine's cores, from some of its histories, computed here.
+
+    They are taken around the strongest shaking, so that it is rather too much.
+    """
+    return sum(_measured(motions, grid, certify, False, None)) / cores()
+
+
+def _measured(
+    motions: Sequence[GroundMotion], grid: Grid, certify: bool, strain: bool, other: Method | None
+) -> list[float]:
+    """Core seconds of the histories of each motion."""
+    _warm()
+    longest = max(motions, key=lambda motion: motion.n)
+    peak = int(np.argmax(np.abs(longest.acceleration)))
+    first = max(0, min(peak - WINDOW // 4, longest.n - WINDOW))
+    window = GroundMotion(longest.acceleration[first : first + WINDOW], longest.dt, name="window")
+    nothing = GroundMotion(np.zeros(2), longest.dt, name="nothing")
+    ratio = grid.stiffness_ratio[_shares(grid.stiffness_ratio.size, 2)]
+    pretension = grid.pretension[_shares(grid.pretension.size, 8)]
+    period = grid.period[_shares(grid.period.size, 6)]
+    part = replace(grid, stiffness_ratio=ratio, pretension=pretension, period=period)
+    spent, histories = 0.0, 0
+    for k in range(period.size):  # from the shortest, which costs most
+        columns = np.arange(k, ratio.size * period.size, period.size)
+        for motion, sign in ((nothing, -1), (window, 1)):  # what a call costs by itself is no history's
+            started = time.thread_time()
+            _run_columns(part, certify, strain, other, columns, motion)
+            spent += sign * (time.thread_time() - started)
+        histories += columns.size * pretension.size
+        if spent > PROBE:
+            break
+    each = max(spent / (histories * window.n), SECONDS_PER_SAMPLE / 4.0)
+    return [each * motion.n * grid.size for motion in motions]
+
+
+def _shares(size: int, count: int) -> IntArray:
+    """Positions in the middle of equal shares, at most so many."""
+    count = min(size, count)
+    return ((np.arange(count) + 0.5) * size / count).astype(np.int64)
 
 
 def timed(grid: Grid, motion: GroundMotion, certify: bool = True) -> tuple[float, int]:

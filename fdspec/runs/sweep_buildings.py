@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Iterable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Final
@@ -14,7 +15,7 @@ from fdspec.model.building import Frame
 from fdspec.model.building_grid import BuildingGrid, Buildings
 from fdspec.model.motion import GroundMotion
 from fdspec.runs.cube import assemble, chosen, named
-from fdspec.scheduling.threads import Task, fan_out, plan
+from fdspec.scheduling.threads import Task, cores, fan_out, plan
 from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS
 
 if TYPE_CHECKING:
@@ -25,6 +26,11 @@ IntArray = NDArray[np.int64]
 
 SECONDS_PER_SAMPLE: Final = 0.8e-6
 """Core time of one history for each sample of its record and N^1.5, roughly; for plans, not for results."""
+
+LONG: Final = 60.0
+"""s of work above which it is told what a stop would lose."""
+
+log = logging.getLogger(__name__)
 
 LIMITS: Final = ("elastic_acceleration", "braced_acceleration")
 RESPONSES: Final = tuple(v.name for v in BUILDING_CUBE.values() if v.dims[:4] == BUILDING_DIMS)
@@ -92,6 +98,9 @@ def sweep_buildings(
 
     Notes
     -----
+    Results are held in memory until the end: a sweep that is stopped loses them.  Where that is more than a
+    minute of work a warning is logged.
+
     The equations of motion are the study's (19) to (25).  Of the limits that ride along,
     ``elastic_acceleration`` is the frame without braces.  A damper that slides freely is another
     building: the braces stand on the floors and swing there, and ``slip_scale`` 0 computes it.
@@ -111,6 +120,12 @@ def sweep_buildings(
     histories = _ends(grid)[-1 if set(LIMITS) & set(wanted) else 0]
     seconds = [histories * motion.n * SECONDS_PER_SAMPLE * grid.n_storeys**1.5 for motion in motions]
     tasks = plan(histories, seconds, cells_per_task, "cells_per_task")
+    if (expected := sum(seconds) / cores()) > LONG:
+        log.warning(
+            "about %.0f min of work are held in memory until the end, and lost when it is stopped; sweep a "
+            "few buildings or records at a time, and save each",
+            expected / 60.0,
+        )
     parts = fan_out(
         partial(_run, grid, certify),
         motions,

@@ -15,6 +15,8 @@ from fdspec.kernels.storey.energy import stored_energy
 from fdspec.kernels.storey.step import begin, walk
 from fdspec.kernels.types import (
     ANCHOR,
+    ENERGY_NOT_CLOSED,
+    ENERGY_TOLERANCE,
     INPUT,
     NON_FINITE_STATE,
     OK,
@@ -57,6 +59,17 @@ BEYOND = 1e-6
 
 
 @inner
+def energy_in_play(storey, s, friction):
+    """What an error of the balance is measured by, J: the largest of the energies that a history has seen.
+
+    The net input alone may be zero, as over whole periods of a frame without damping.
+    """
+    moved = storey.floor_mass * s[PEAK_VELOCITY] * s[PEAK_VELOCITY]
+    bent = storey.floor_stiffness * s[PEAK_DISPLACEMENT] * s[PEAK_DISPLACEMENT]
+    return max(max(abs(s[INPUT]) + s[STORED], s[VISCOUS] + friction), 0.5 * max(moved, bent))
+
+
+@inner
 def finish(storey, s, certify, result):
     """Fill ``result`` (see RESULTS) from the state at the end."""
     motion = Motion(s[U], s[V], s[D], s[E])
@@ -69,7 +82,7 @@ def finish(storey, s, certify, result):
     error = 0.0
     if certify:
         missing = s[INPUT] + s[STORED] - stored_energy(storey, motion) - s[VISCOUS] - friction
-        scale = abs(s[INPUT]) + s[STORED]
+        scale = energy_in_play(storey, s, friction)
         error = abs(missing) / scale if scale > 0.0 else 0.0
     result[0] = s[PEAK_ACCELERATION]
     result[1] = s[PEAK_DISPLACEMENT]
@@ -85,8 +98,11 @@ def finish(storey, s, certify, result):
     size = 0.0
     for k in range(10):
         size += abs(result[k])
-    if not size < math.inf and s[STATUS] == OK:
-        result[10] = NON_FINITE_STATE
+    if s[STATUS] == OK:
+        if not size < math.inf:
+            result[10] = NON_FINITE_STATE
+        elif error > ENERGY_TOLERANCE:
+            result[10] = ENERGY_NOT_CLOSED
 
 
 @inner
