@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.table import BAD, GOOD, grouped, styled
 from fdspec.errors import FdspecError
 
@@ -28,7 +29,7 @@ def check_cube(cube: str, everything: bool) -> None:
     failed = []
     for finding in check(cube):
         word = styled(f"{WORDS[finding.passed]:6s}", COLOURS[finding.passed])
-        click.echo(f"{word}  {finding.what:9s}  {finding.told}")
+        echo(f"{word}  {finding.what:9s}  {finding.told}")
         if finding.passed is False:
             failed.append(finding.what)
         if finding.what == "statuses" and not finding.passed:
@@ -36,8 +37,8 @@ def check_cube(cube: str, everything: bool) -> None:
                 number = 0
                 for number, cell in enumerate(failed_cells(opened), 1):
                     if everything or number <= LISTED:
-                        click.echo(f"        {cell}")
+                        echo(f"        {cell}")
             if not everything and number > LISTED:
-                click.echo(f"        and {grouped(number - LISTED)} more; --all lists them")
+                echo(f"        and {grouped(number - LISTED)} more; --all lists them")
     if failed:
         raise FdspecError(f"{cube}: {', '.join(failed)} failed")

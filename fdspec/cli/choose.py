@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.output import force_option, free
 from fdspec.cli.record_options import file_options, named_records
 
@@ -182,12 +183,12 @@ def choose(
     )
     from fdspec.cli.table import text_width
 
-    click.echo(text(choice, width=text_width()))
+    echo(text(choice, width=text_width()))
     if cube_path is not None:
         from fdspec.store import save
 
         save(choice, cube_path, overwrite=force)
-        click.echo(str(cube_path))
+        echo(str(cube_path))
     if page_path is not None:
         from fdspec.report.page import page
         from fdspec.store.replacing import replacing
@@ -195,7 +196,7 @@ def choose(
         with replacing(page_path, suffixes=PAGES) as part:
             written = page(choice, chosen, motions, title=title, project=project, author=author)
             part.write_text(written, encoding="utf-8")
-        click.echo(str(page_path))
+        echo(str(page_path))
 
 
 def _index(given: str) -> str | dict[str, float]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.table import BAD, FAIR, GOOD, filled, table
 
 if TYPE_CHECKING:
@@ -48,14 +49,14 @@ def claims(cube: str, factor: float, form: str | None) -> None:
     require_cube(dataset, cube, "the study's claims")
     found = study_claims(dataset, normal_force_factor=factor)
     if form == "json":
-        click.echo(_as_json(found))
+        echo(_as_json(found))
         return
     bolt = study_claims(dataset, normal_force_factor=BOLT_FACTOR * factor)
     markdown = form == "markdown"
     blocks = [_shares(found, markdown=markdown), _sentences(found), _verdicts(found, bolt, markdown=markdown)]
     if comment := dataset.attrs.get("comment"):
         blocks.append(filled(str(comment)))
-    click.echo("\n\n".join(blocks))
+    echo("\n\n".join(blocks))
 
 
 def _shares(found: xr.Dataset, *, markdown: bool) -> str:

@@ -8,7 +8,9 @@ from pathlib import Path
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.errors import InvalidInput
+from fdspec.stopping import Stopped
 
 
 @click.command()
@@ -53,10 +55,10 @@ def explore(cube: str, records: tuple[str, ...], host: str, port: int, no_browse
     content = Content(opened, Path(cube).name)
     rerun = Rerun(opened, files, Path(cube).parent)
     if not is_loopback(host):
-        click.echo(f"fdspec: warning: whoever reaches {host} can read this cube and run histories", err=True)
+        echo(f"fdspec: warning: whoever reaches {host} can read this cube and run histories", err=True)
 
     def ready(address: str) -> None:
-        click.echo(f"{address}  (Ctrl-C ends)")
+        echo(f"{address}  (Ctrl-C ends)")
         sys.stdout.flush()
         if not no_browser and _has_browser():
             import webbrowser
@@ -65,8 +67,10 @@ def explore(cube: str, records: tuple[str, ...], host: str, port: int, no_browse
 
     try:
         serve(content, rerun, host=host, port=port, ready=ready)
+    except Stopped:
+        raise
     except KeyboardInterrupt:  # the way to end it
-        click.echo()
+        echo()
 
 
 def needs_extra(error: ModuleNotFoundError) -> str:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.output import force_option, free
 from fdspec.errors import InvalidInput
 
@@ -50,7 +51,7 @@ def export(cube: str, output: str | None, page: bool, record: str | None, force:
         if path.suffix.lower() in CSV_SUFFIXES and "transition" in opened.dims:
             beside = [free(transitions_file(path), force=force, suffixes=CSV_SUFFIXES)]
         store.export(opened, path, record=record)
-    click.echo("\n".join(map(str, [path, *beside])))
+    echo("\n".join(map(str, [path, *beside])))
 
 
 def _write_page(cube: str, path: Path, record: str | None) -> None:

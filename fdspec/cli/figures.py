@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.output import force_option, free, made_folder, write_picture
 from fdspec.errors import InvalidInput
 
@@ -96,7 +97,7 @@ def figures(
     given = Study.read(study_file).motions() if study_file else ()
     pictures = chosen(study_pictures(dataset, given), _numbers(only))
     if listed:
-        click.echo("\n".join(f"{picture.number:8} {picture.title}" for picture in pictures))
+        echo("\n".join(f"{picture.number:8} {picture.title}" for picture in pictures))
         return
     folder = made_folder(output)
     kinds = tuple(dict.fromkeys(kinds)) or ("png", "pdf")
@@ -108,7 +109,7 @@ def figures(
         free(path, force=force, suffixes=(path.suffix,))
     _, lost = applied_motions(dataset, given)
     if lost and (only is None or {"8", "9"} & set(_numbers(only))):
-        click.echo(
+        echo(
             f"fdspec: warning: figures 8 and 9 are without {', '.join(lost)}: no record found with the "
             "cube's checksum; name its study file with --study",
             err=True,
@@ -129,7 +130,7 @@ def figures(
             _write(_encoded(plot_contact_sheet(thumbnails, title=title), kinds, author), sheet)
             captions.write_text(_page(pictures), encoding="utf-8")
             done(1)
-    click.echo("\n".join(str(path) for path in [*(path for files in paths for path in files), *sheet]))
+    echo("\n".join(str(path) for path in [*(path for files in paths for path in files), *sheet]))
 
 
 def _encoded(figure: Figure, kinds: Sequence[str], author: str) -> dict[str, bytes]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.output import PICTURES, force_option, free, save_picture
 
 if TYPE_CHECKING:
@@ -61,17 +62,17 @@ def fragility(
         fit = fit.merge(rates, combine_attrs="override")
     frame = shown.reset_coords(drop=True).expand_dims("curve").to_dataframe()
     table = frame.reset_index().drop(columns="curve")
-    click.echo(table.to_string(index=False, float_format=lambda value: f"{value:.4g}"))
+    echo(table.to_string(index=False, float_format=lambda value: f"{value:.4g}"))
     if rates is not None and rates["annual_rate"].size == 1:
         for _, row in rates["deaggregation"].squeeze().to_dataframe().iterrows():
-            click.echo(f"{row.segment_from:10.4g} to {row.segment_to:10.4g}  {row.deaggregation:6.1%}")
+            echo(f"{row.segment_from:10.4g} to {row.segment_to:10.4g}  {row.deaggregation:6.1%}")
     if path is None:
         return
     if path.suffix.lower() in PICTURES:
         save_picture(plot_fragility(fit), path)
     else:
         _write(fit, table, path)
-    click.echo(f"{path}")
+    echo(f"{path}")
 
 
 def _select(opened: xr.Dataset, choice: str) -> xr.Dataset:

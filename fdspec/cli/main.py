@@ -3,21 +3,45 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
+import threading
 import warnings
 from collections.abc import Sequence
 from contextlib import suppress
-from typing import Final
+from typing import Final, NoReturn
 
 import click
 
 from fdspec.cli.commands import fdspec
+from fdspec.cli.echo import echo
 from fdspec.errors import DiskError, FdspecError, InvalidInput, StoreError
+from fdspec.stopping import STOPPING, Stopped, stopped_by_signals
 
 DONE: Final = 0
 FAILED: Final = 1
 WRONG_USAGE: Final = 2
-INTERRUPTED: Final = 130
+SIGNALLED: Final = 128
+"""Plus the number of the signal that ended it, as shells have it."""
+
+INTERRUPTED: Final = SIGNALLED + signal.SIGINT
+
+
+def run() -> NoReturn:
+    """Run the command line of this process, and end the process.
+
+    One that was told to stop, again after it began to, does not wait for threads that are still at work.
+    """
+    code = main()
+    if code > SIGNALLED:
+        for number in STOPPING:
+            signal.signal(number, signal.SIG_IGN)
+    if any(thread.name.startswith("fdspec") for thread in threading.enumerate()):
+        for stream in (sys.stdout, sys.stderr):
+            with suppress(OSError, ValueError):
+                stream.flush()
+        os._exit(code)
+    sys.exit(code)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -30,7 +54,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     arguments : sequence of str, optional
         Without the program's name; those of the process by default.
     """
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(), stopped_by_signals():
         warnings.simplefilter("default", UserWarning)
         warnings.showwarning = _show_warning
         try:
@@ -53,7 +77,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return _fail(str(error), FAILED)
         except MemoryError as error:
             return _fail(f"not enough memory: {error}", FAILED)
-        except (click.Abort, KeyboardInterrupt):
+        except (click.Abort, KeyboardInterrupt) as error:
+            # click raises Abort from what it caught.
+            cause = error if isinstance(error, Stopped) else error.__cause__
+            if isinstance(cause, Stopped):
+                number = signal.Signals(cause.args[0])
+                _tell(f"fdspec: stopped by {number.name}")
+                return SIGNALLED + number
             _tell("fdspec: interrupted")
             return INTERRUPTED
         except BrokenPipeError:
@@ -74,7 +104,7 @@ def _fail(text: str, code: int) -> int:
 def _tell(line: str) -> None:
     """Write to stderr, where there is one that can be written to; the exit code says the rest."""
     with suppress(OSError, ValueError):
-        click.echo(line, err=True)
+        echo(line, err=True)
 
 
 def _forget_stdout() -> None:

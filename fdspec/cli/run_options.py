@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Final, ParamSpec, TypeVar
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.errors import BusyError, ClusterError, DiskError, FdspecError
+from fdspec.printable import printable
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -77,6 +79,13 @@ def client_of(workers: int | None, scheduler: str | None) -> Iterator[Client | N
             yield client
 
 
+class _OneLine(logging.Formatter):
+    """What a file says of itself stays text also in a log that somebody prints."""
+
+    def format(self, record: logging.LogRecord) -> str:
+        return printable(super().format(record))
+
+
 @contextmanager
 def logged(path: str | None) -> Iterator[None]:
     """Append to a file what fdspec, and the cluster where it is worth a warning, have to say."""
@@ -87,7 +96,7 @@ def logged(path: str | None) -> Iterator[None]:
         handler = logging.FileHandler(path, encoding="utf-8")
     except OSError as error:
         raise DiskError(f"cannot write {path}: {error.strerror}") from error
-    handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)-7s %(name)s: %(message)s"))
+    handler.setFormatter(_OneLine("%(asctime)s %(levelname)-7s %(name)s: %(message)s"))
     ours, theirs = logging.getLogger("fdspec"), logging.getLogger("distributed")
     before = ours.level
     ours.setLevel(logging.INFO)
@@ -114,7 +123,5 @@ def kept(store: Path | None) -> Iterator[None]:
         raise  # another's work, not ours
     except (ClusterError, DiskError, KeyboardInterrupt):
         if store is not None and store.exists():
-            click.echo(
-                f"fdspec: {store} keeps what is finished; the same command goes on from there", err=True
-            )
+            echo(f"fdspec: {store} keeps what is finished; the same command goes on from there", err=True)
         raise

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.numbers_option import Numbers
 from fdspec.cli.output import PICTURES, force_option, free, save_picture
 from fdspec.cli.record_options import file_options, named_records
@@ -102,7 +103,7 @@ def spectra(
             raise click.UsageError("--hardening-ratio needs --ductility, --reduction-factor or --strength")
         found = elastic_spectra(motions, periods, damping_ratio, after="peak")
     write_table_or_picture(found, path, inelastic=inelastic)
-    click.echo(f"{path}")
+    echo(f"{path}")
 
 
 def write_table_or_picture(found: xr.Dataset, path: Path, *, inelastic: bool) -> None:

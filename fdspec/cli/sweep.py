@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 import time
 import warnings
 from contextlib import nullcontext
@@ -13,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.held import holds
 from fdspec.cli.output import force_option, free, is_there
 from fdspec.cli.record_options import file_options, named_records
@@ -100,24 +100,24 @@ def sweep(
         study, scaled=study.scaled and not raw, certify=study.certify and not no_certify
     )
     if print_study:
-        click.echo(study.to_toml(), nl=False)
+        echo(study.to_toml(), nl=False)
         return
     if sum(one is not None for one in (threads, workers, scheduler)) > 1:
         raise click.UsageError("--threads, --workers and --scheduler exclude each other")
     path = Path(output or ("study.nc" if study_file is None else f"{Path(study_file).stem}.nc"))
     if is_there(path) and not force and holds(path, study, study.motions()):
-        click.echo(f"{path} holds this study already: nothing to compute; --force computes it again")
+        echo(f"{path} holds this study already: nothing to compute; --force computes it again")
         return
     if path.suffix != STORE_SUFFIX:
         free(path, force=force)
     elif not path.is_dir():
         check_writable(path, suffixes=(STORE_SUFFIX,))
     if dry_run:
-        click.echo(_plan(study, path))
+        echo(_plan(study, path))
         return
     with locked(path):
         if is_there(path) and not force and holds(path, study, study.motions()):
-            click.echo(f"{path} holds this study already: another run has just written it")
+            echo(f"{path} holds this study already: another run has just written it")
             return
         if path.suffix != STORE_SUFFIX:
             free(path, force=force)
@@ -175,8 +175,8 @@ def _finish(cube: xr.Dataset, path: Path, store: Path | None, force: bool, start
         to_netcdf(store, path, overwrite=force)
     with cube:
         told, failed = statuses(cube)
-        click.echo(summary(cube, path, time.perf_counter() - started))
-        click.echo(told)
+        echo(summary(cube, path, time.perf_counter() - started))
+        echo(told)
     if failed:
         warnings.warn(f"{failed} histories did not end well; their cells are listed above", stacklevel=1)
     if store is not None and store != path:
@@ -188,24 +188,21 @@ def _finish(cube: xr.Dataset, path: Path, store: Path | None, force: bool, start
 
 def _plan(study: Study, path: Path) -> str:
     """Say what a run would do."""
-    import numpy as np
-
+    from fdspec.runs.bounds import seconds_of_sweep
     from fdspec.runs.cost import measured
-    from fdspec.runs.sweep import OUTPUTS
+    from fdspec.runs.sweep import bytes_of, refuse_endless, usual_outputs
     from fdspec.scheduling.threads import cores
-    from fdspec.variables import CUBE
 
     motions = study.motions()
+    outputs = study.outputs or usual_outputs(study.grid)
+    rough = sum(seconds_of_sweep(study.grid, motions, study.certify))
+    store = store_of(path, resumable=None, expected=lambda: rough / cores())
+    refuse_endless(motions, study.grid, outputs, rough, store)
     histories = len(motions) * study.grid.size
     cost = measured(study.grid, motions, study.certify)
     total, count = cost.of_sweep(study.grid, motions), cores()
     n_sr, n_f, n_t = study.grid.shape
     samples = sum(motion.n for motion in motions)
-    lengths = {"record": len(motions), "stiffness_ratio": n_sr, "pretension": n_f, "period": n_t}
-    bytes_of = {
-        name: math.prod(lengths[dim] for dim in CUBE[name].dims) * np.dtype(CUBE[name].dtype).itemsize
-        for name in study.outputs or OUTPUTS
-    }
     return "\n".join(
         (
             f"records           {', '.join(motion.name for motion in motions)} ({grouped(samples)} samples)",
@@ -216,7 +213,7 @@ def _plan(study: Study, path: Path) -> str:
             f"measured cost     {1e6 * total / histories:.3g} us of core time a history",
             f"transitions       {cost.transitions_per_sample * samples / len(motions):.0f} a history",
             f"expected time     {seconds(total)} of core time, {seconds(total / count)} on {count} cores",
-            f"expected size     at most {size(sum(bytes_of.values()))}",
+            f"expected size     at most {size(sum(bytes_of(motions, study.grid, outputs).values()))}",
             f"would write       {path}",
         )
     )

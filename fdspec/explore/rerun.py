@@ -11,10 +11,14 @@ from fdspec.errors import InvalidInput
 from fdspec.explore.motions import Motions
 from fdspec.explore.traces import LOOP_FINER, packed_history
 from fdspec.model.building import Building
+from fdspec.runs.bounds import refuse_long, seconds_of_history
 from fdspec.runs.simulate import simulate
 
 if TYPE_CHECKING:
     import xarray as xr
+
+PAGE_HOURS: Final = 1.0 / 60.0
+"""h that a history for the page may take."""
 
 
 class Rerun:
@@ -70,6 +74,8 @@ class Rerun:
         self.check(record=record, stiffness_ratio=stiffness_ratio, pretension=pretension, period=period)
         found = self.motions.find(str(self.cube["record"].values[record]))
         frame = self.building(stiffness_ratio, pretension, period)
+        seconds = seconds_of_history(frame, found.motion.dt, found.motion.n)
+        refuse_long(seconds, PAGE_HOURS, "this history")
         return simulate(frame, found.motion, dt_out=found.motion.dt / finer), found.notice
 
     def check(self, **place: int) -> None:

@@ -95,15 +95,15 @@ def _frame(axis: Axes, storeys: int, building: Building | None) -> None:
         "column": (-0.28, top - 1.55, f"columns\n$k_f$, $\\zeta${told['column']}", DARK),
         "brace": (right + 0.28, top - 1.55, f"brace\n$k_d$, $m_d${told['brace']}", FRICTION),
     }
-    for name, (across, up, words, colour) in say.items():
-        side = {"floor": "center", "column": "right", "brace": "left"}[name]
+    for name, (at, height, words, colour) in say.items():
+        align = {"floor": "center", "column": "right", "brace": "left"}[name]
         axis.text(
-            across,
-            up,
+            at,
+            height,
             words,
             color=colour,
             fontsize=SMALL + 1,
-            ha=side,
+            ha=align,
             va="bottom" if name == "floor" else "center",
         )
     axis.annotate(

@@ -441,7 +441,7 @@ def test_a_building_file_is_a_building(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text_of_file", "said"),
     [
-        ("floor_mass = [", "is no TOML"),
+        ("floor_mass = [", "is not TOML"),
         ("floor_mass = [1e4]\nbare_period = 1\n", "give either storey_stiffness and brace_stiffness"),
         (FOUR + "storey_stiffness = 1e7\n", "give either storey_stiffness and brace_stiffness"),
         (FOUR + "height = 3\n", "line 7: height"),
