@@ -11,6 +11,7 @@ import pytest
 
 import fdspec
 from fdspec import Building, Link, ModalDamping
+from fdspec.cli import main
 from fdspec.errors import InvalidInput, StudyError
 from fdspec.model.building_file import read_building
 from fdspec.runs.study import Study
@@ -179,3 +180,37 @@ def test_a_building_file_takes_devices(tmp_path: Path) -> None:
     )
     with pytest.raises(InvalidInput, match=r"office.toml: storey_height must be given"):
         read_building(path)
+
+
+def test_the_command_takes_devices(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "history.nc"
+    options = [
+        "--yield-shear",
+        "60e3",
+        "--hardening-ratio",
+        "0.02",
+        "--slot-length",
+        "0.005",
+        "--slot-stiffness",
+        "2e7",
+    ]
+    frame = ["--period", "0.4", "--stiffness-ratio", "4", "--slip-force", "30e3"]
+    assert main(["simulate", "--record", "FSR1", *frame, *options, "-o", str(out)]) == 0
+    assert "ductility" in capsys.readouterr().out
+    history = fdspec.open(out)
+    assert int(history["column_events"][0]) > 0
+    assert (
+        main(["simulate", "--record", "FSR1", *frame, "--slot-length", "0.005", "-o", str(out), "--force"])
+        == 1
+    )
+    assert "slot_stiffness must be positive, in N/m, where slot_length is given" in capsys.readouterr().err
+
+
+def test_the_page_runs_a_cell_with_its_devices() -> None:
+    from fdspec.explore.rerun import _parameters
+
+    cube = fdspec.sweep(SHORT, **AXES, **DEVICES)
+    frame, _ = _parameters(cube)
+    assert {name: frame[name] for name in DEVICES} == DEVICES
+    plain, _ = _parameters(fdspec.sweep(SHORT, **AXES))
+    assert not set(DEVICES) & set(plain)
