@@ -83,7 +83,7 @@ def test_nothing_depends_on_the_step() -> None:
 
 
 def test_a_brace_that_stops_a_moment_before_its_neighbour() -> None:
-    """It stands at its limit to rounding when the next event comes, and rounding must not let it slip again."""
+    """It stands at its limit to rounding when the next event comes, which must not let it slip again."""
     check_subdivision([10_237], 2.0)
 
 
