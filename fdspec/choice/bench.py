@@ -16,7 +16,8 @@ from fdspec.measures.indices import Weights, needs_of, value_of
 from fdspec.model.building import Building, Frame
 from fdspec.model.motion import GroundMotion
 from fdspec.runs.cube import named
-from fdspec.scheduling.threads import fan_out, plan
+from fdspec.scheduling.task import plan
+from fdspec.scheduling.threads import fan_out
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]

@@ -24,7 +24,8 @@ from fdspec.runs.bounds import SWEEP_HOURS, refuse_long
 from fdspec.runs.cube import assemble, named
 from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.progress import progress as progress_bar
-from fdspec.scheduling.threads import fan_out, plan
+from fdspec.scheduling.task import plan
+from fdspec.scheduling.threads import fan_out
 
 FloatArray = NDArray[np.float64]
 

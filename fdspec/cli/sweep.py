@@ -191,7 +191,7 @@ def _plan(study: Study, path: Path) -> str:
     from fdspec.runs.bounds import seconds_of_sweep
     from fdspec.runs.cost import measured
     from fdspec.runs.sweep import OUTPUTS, bytes_of, refuse_endless
-    from fdspec.scheduling.threads import cores
+    from fdspec.scheduling.task import cores
 
     motions = study.motions()
     outputs = study.outputs or OUTPUTS

@@ -28,7 +28,8 @@ from fdspec.units import G
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.figure import Figure
+
+    from fdspec.figures.page import Figure
 
 STYLE: Final = """
 :root { color-scheme: light; }

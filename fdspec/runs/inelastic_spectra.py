@@ -23,7 +23,8 @@ from fdspec.model.motion import GroundMotion
 from fdspec.model.number_check import finite_number
 from fdspec.runs.cube import assemble, named
 from fdspec.runs.spectra_variables import registry
-from fdspec.scheduling.threads import fan_out, plan
+from fdspec.scheduling.task import plan
+from fdspec.scheduling.threads import fan_out
 from fdspec.signals.spectra import SHORTEST
 
 if TYPE_CHECKING:

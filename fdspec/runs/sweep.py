@@ -24,11 +24,12 @@ from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_o
 from fdspec.runs.cube import assemble, chosen, named
 from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.progress import Shown
-from fdspec.scheduling.threads import Task, cores, fan_out, plan
+from fdspec.scheduling.task import Task, cores, plan
+from fdspec.scheduling.threads import fan_out
 from fdspec.variables import CUBE, STUDY_DIMS
 
 if TYPE_CHECKING:
-    from distributed import Client
+    from fdspec.scheduling.task import Client
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
