@@ -15,7 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 from fdspec.model.building import Building, Frame
 from fdspec.model.building_grid import BuildingGrid, Buildings
 from fdspec.model.motion import GroundMotion
-from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_history
+from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long
+from fdspec.runs.cost import seconds_of_history
 from fdspec.runs.cube import assemble, chosen, named
 from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.progress import Shown
