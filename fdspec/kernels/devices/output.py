@@ -22,6 +22,7 @@ from fdspec.kernels.devices.layout import (
 )
 from fdspec.kernels.devices.peaks import storey_shear
 from fdspec.kernels.devices.tally import travel_since, work_since
+from fdspec.kernels.friction import sliding_force
 from fdspec.kernels.mathematics.polynomial_roots import value
 from fdspec.kernels.types import STICK
 
@@ -75,7 +76,9 @@ def write_traces(frame, state, then, series, n, h, y, floor_traces, link_traces,
             if phase == STICK:
                 friction = value(series.sliders[REACTION, j], n - 1, y)
             else:
-                friction = phase * (frame.links[KINETIC, j] + frame.links[FRICTION_GROWTH, j] * abs(offset))
+                friction = sliding_force(
+                    phase, frame.links[KINETIC, j] + frame.links[FRICTION_GROWTH, j] * abs(offset)
+                )
         link_traces[row, 0, j] = offset
         link_traces[row, 1, j] = then.sliders[Z, j]
         link_traces[row, 2, j] = friction

@@ -14,6 +14,7 @@ import numpy as np
 from numba import types
 
 from fdspec.compiler.options import entry, float1d, float2d, float3d, inlined, inner, int1d
+from fdspec.kernels.friction import sliding_force
 from fdspec.kernels.types import ITERATION_NOT_CONVERGED, NON_FINITE_STATE, OK, STICK
 
 MOST_ITERATIONS = 1000
@@ -162,7 +163,7 @@ def balance(storeys, stiffness, damping, phase, x, ground):
     """Set forces and accelerations to the equilibrium of the present phases; each interval begins so."""
     for i in range(x.shape[1]):
         if phase[i] != STICK:
-            x[R, i] = phase[i] * storeys[KINETIC_SLIP_FORCE, i]
+            x[R, i] = sliding_force(phase[i], storeys[KINETIC_SLIP_FORCE, i])
         else:
             x[E, i] = x[V, i]
             x[R, i] = 0.0

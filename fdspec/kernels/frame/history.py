@@ -62,6 +62,7 @@ from fdspec.kernels.frame.taylor import (
     reaction_now,
     relax,
 )
+from fdspec.kernels.friction import friction_work
 from fdspec.kernels.types import (
     ENERGY_NOT_CLOSED,
     ENERGY_TOLERANCE,
@@ -355,7 +356,7 @@ def history(
         travel = travel_so_far(phase, state[OFFSET, i], tally, i)
         work = tally[RELEASE, i]
         if travel > 0.0:
-            work += frame[KINETIC_SLIP_FORCE, i] * travel
+            work += friction_work(frame[KINETIC_SLIP_FORCE, i], travel)
         friction += work
         by_storey[6, i] = state[DISPLACEMENT, i]
         by_storey[7, i] = state[DISPLACEMENT, i] - state[OFFSET, i]

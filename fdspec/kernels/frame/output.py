@@ -16,6 +16,7 @@ from fdspec.kernels.frame.taylor import (
     VELOCITY,
     end_of_step,
 )
+from fdspec.kernels.friction import friction_work, sliding_force
 from fdspec.kernels.mathematics.polynomial_roots import value
 from fdspec.kernels.types import STICK
 
@@ -54,7 +55,7 @@ def write_traces(frame, dense_stiffness, phase, series, n, h, y, tally, motion, 
         traces[row, 3, i] = value(c, n - 1, y)
         traces[row, 4, i] = motion[DISPLACEMENT, i] - motion[OFFSET, i]
         traces[row, 5, i] = motion[VELOCITY, i] - motion[SLIDING, i]
-        force = phase[i] * frame[KINETIC_SLIP_FORCE, i]
+        force = sliding_force(phase[i], frame[KINETIC_SLIP_FORCE, i])
         if phase[i] == STICK:
             force = value(series[REACTION, i + 1], n - 1, y)
         traces[row, 6, i] = force
@@ -63,6 +64,6 @@ def write_traces(frame, dense_stiffness, phase, series, n, h, y, tally, motion, 
         traces[row, 8, i] = travel
         traces[row, 9, i] = tally[RELEASE, i]
         if travel > 0.0:
-            traces[row, 9, i] += frame[KINETIC_SLIP_FORCE, i] * travel
+            traces[row, 9, i] += friction_work(frame[KINETIC_SLIP_FORCE, i], travel)
     energies[row, 2] = kinetic_energy(frame, motion)
     energies[row, 3] = strain_energy(frame, dense_stiffness, motion)

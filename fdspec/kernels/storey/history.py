@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 from fdspec.compiler.options import inner
-from fdspec.kernels.friction import reaction
+from fdspec.kernels.friction import friction_work, reaction
 from fdspec.kernels.storey.energy import stored_energy
 from fdspec.kernels.storey.step import begin, resume, walk
 from fdspec.kernels.types import (
@@ -78,7 +78,7 @@ def finish(storey, s, certify, result):
         travel += s[PHASE] * (motion.u - motion.d - s[ANCHOR])
     friction = s[RELEASE]
     if travel > 0.0:
-        friction += storey.kinetic_slip_force * travel
+        friction += friction_work(storey.kinetic_slip_force, travel)
     error = 0.0
     if certify:
         missing = s[INPUT] + s[STORED] - stored_energy(storey, motion) - s[VISCOUS] - friction

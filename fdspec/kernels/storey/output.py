@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fdspec.compiler.options import inlined, inner
+from fdspec.kernels.friction import friction_work, sliding_force
 from fdspec.kernels.mathematics.polynomial_roots import value_slope
 from fdspec.kernels.storey.energy import series_work
 from fdspec.kernels.storey.stick import held_force
@@ -31,7 +32,7 @@ def floor_acceleration(plan, phase, offset, motion):
         b = plan.stick
         return plan.lift * offset - b.g * motion.v - b.w2 * motion.u
     b = plan.floor
-    push = phase * plan.storey.kinetic_slip_force / plan.storey.floor_mass
+    push = sliding_force(phase, plan.storey.kinetic_slip_force) / plan.storey.floor_mass
     return -push - b.g * motion.v - b.w2 * motion.u
 
 
@@ -49,7 +50,7 @@ def write_trace(plan, floor, brace, n, phase, offset, anchor, travel, so_far, ac
     else:
         d, rise = value_slope(brace, 0, n, x)
         e = rise / h
-        friction = phase * storey.kinetic_slip_force
+        friction = sliding_force(phase, storey.kinetic_slip_force)
         travel += phase * (u - d - anchor)
     row[0] = u
     row[1] = v
@@ -61,4 +62,4 @@ def write_trace(plan, floor, brace, n, phase, offset, anchor, travel, so_far, ac
     row[7] = travel
     row[8] = so_far.input + done
     row[9] = so_far.viscous + lost
-    row[10] = so_far.release + (storey.kinetic_slip_force * travel if travel > 0.0 else 0.0)
+    row[10] = so_far.release + (friction_work(storey.kinetic_slip_force, travel) if travel > 0.0 else 0.0)
