@@ -15,8 +15,10 @@ from fdspec.measures.ensemble import statistic_of
 from fdspec.measures.indices import Weights, needs_of, value_of
 from fdspec.model.building import Building, Frame
 from fdspec.model.motion import GroundMotion
+from fdspec.runs import cost
 from fdspec.runs.cube import named
-from fdspec.scheduling.threads import fan_out, plan
+from fdspec.scheduling.task import plan
+from fdspec.scheduling.threads import fan_out
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -47,15 +49,6 @@ BARE: Final = {
 """What an index calls a response of the frame without braces -> that response."""
 
 STRAIN: Final = ("strain_energy_area", "peak_strain_energy")
-
-SECONDS_PER_SAMPLE: Final = 60e-9
-"""Core time of one single-storey history for each sample, roughly; for plans, not for results."""
-
-FRAME_SECONDS_PER_SAMPLE: Final = 0.8e-6
-"""The same of a frame, times storeys to the power 1.5."""
-
-DEVICE_SECONDS_PER_SAMPLE: Final = 10e-6
-"""The same of a building with devices."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -251,14 +244,12 @@ def _run(
     count, storeys = slip_force.shape
     if building.has_devices:
         work: Any = partial(_run_devices, building, slip_force, kinetic_slip_force)
-        each = DEVICE_SECONDS_PER_SAMPLE * storeys**1.5
     elif storeys == 1:
         work = partial(_run_storey, np.array(building.storey[:6]), slip_force[:, 0], kinetic_slip_force[:, 0])
-        each = SECONDS_PER_SAMPLE
     else:
         work = partial(_run_frame, building.frame, slip_force, kinetic_slip_force)
-        each = FRAME_SECONDS_PER_SAMPLE * storeys**1.5
-    seconds = [count * motion.n * each * (4.0 if set(STRAIN) & set(needs) else 1.0) for motion in motions]
+    times = count * (cost.STRAIN if set(STRAIN) & set(needs) else 1.0)
+    seconds = [times * cost.seconds_of_history(building, motion.dt, motion.n) for motion in motions]
     tasks = plan(count, seconds, None, "candidates")
     work = partial(work, needs)
     if workers == 0:

@@ -13,8 +13,7 @@ from fdspec.cli.output import force_option, free, made_folder, write_picture
 from fdspec.errors import InvalidInput
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from fdspec.figures.page import Figure
     from fdspec.report.study_figures import Picture
 
 KINDS: Final = ("png", "pdf", "svg")

@@ -15,7 +15,8 @@ from fdspec.units import G
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.figure import Figure
+
+    from fdspec.figures.page import Figure
 
 RECORD_FIGURES: Final = {
     "FSR1": 10,

@@ -15,15 +15,17 @@ from numpy.typing import ArrayLike, NDArray
 from fdspec.model.building import Building, Frame
 from fdspec.model.building_grid import BuildingGrid, Buildings
 from fdspec.model.motion import GroundMotion
-from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_history
+from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long
+from fdspec.runs.cost import seconds_of_history
 from fdspec.runs.cube import assemble, chosen, named
 from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.progress import Shown
-from fdspec.scheduling.threads import Task, cores, fan_out, plan
+from fdspec.scheduling.task import Task, cores, plan
+from fdspec.scheduling.threads import fan_out
 from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS, demand_variables
 
 if TYPE_CHECKING:
-    from distributed import Client
+    from fdspec.scheduling.task import Client
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]

@@ -48,6 +48,7 @@ from fdspec.kernels.frame.taylor import (
 )
 from fdspec.kernels.mathematics.polynomial_roots import largest_magnitude
 from fdspec.kernels.mathematics.quadrature import NODES, WEIGHTS
+from fdspec.kernels.storey.strain import STRAIN
 from fdspec.kernels.types import NON_FINITE_STATE, OK, TRANSITION_CAP, TRANSITION_CAP_REACHED
 
 
@@ -255,9 +256,9 @@ def strain_of_history(
             status = NON_FINITE_STATE
         if status != OK:
             break
-    result[0] = total
-    result[1] = most
-    result[2] = status
+    result[STRAIN.strain_energy_area] = total
+    result[STRAIN.peak_strain_energy] = most
+    result[STRAIN.status] = status
 
 
 @entry(types.void(given2d, given2d, given2d, given1d, types.float64, types.float64, float1d))
