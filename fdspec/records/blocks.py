@@ -23,7 +23,10 @@ def read_blocks(
     channels = []
     number = 1
     while number <= len(text.lines):
-        line = text.lines[number - 1]
+        if channels and not text.head(number).strip():
+            number += 1
+            continue
+        line = text.head(number)
         if title.match(line) is None:
             raise text.refusal(number, f"expected {expected}, found {line[:60]!r}")
         channel, number = read_block(text, number)

@@ -31,11 +31,10 @@ _SCALE: Final = re.compile(r"([\d.]{1,12})\(gal\)/([\d.]{1,15})")
 
 def recognises(text: TextFile) -> bool:
     """Say whether the header's first and fourteenth lines are NIED's."""
-    lines = text.lines
     return (
-        len(lines) > HEADER_LINES
-        and lines[0].startswith("Origin Time")
-        and lines[13].startswith("Scale Factor")
+        len(text.lines) > HEADER_LINES
+        and text.head(1).startswith("Origin Time")
+        and text.head(14).startswith("Scale Factor")
     )
 
 
@@ -45,7 +44,7 @@ def read(text: TextFile) -> tuple[Channel, ...]:
     The counts have an offset that is no ground motion; the header's own maximum is without it. It is the mean
     of the record.
     """
-    values = [line[18:].strip() for line in text.lines[:HEADER_LINES]]
+    values = [line[18:].strip() for line in text.heads(1, HEADER_LINES)]
     rate = whole_number(text, {"Sampling Freq(Hz)": (11, values[10].removesuffix("Hz"))}, "Sampling Freq(Hz)")
     seconds = whole_number(text, {"Duration Time(s)": (12, values[11])}, "Duration Time(s)")
     match = _SCALE.fullmatch(values[13])

@@ -1,0 +1,87 @@
+"""Rows without headings: a column for each quantity, or one series that runs on along the rows."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fdspec.records.block import Block
+from fdspec.records.given import Given
+from fdspec.records.rows import Table
+from fdspec.records.textfile import TextFile
+
+COLUMNS: Final = "columns"
+ROWS: Final = "rows"
+
+CLEARLY: Final = 0.7
+"""Neighbours along a series differ less than values a row apart, by this factor at least, or nothing is concluded."""
+
+RISING: Final = 0.8
+"""Share of steps upward from which a first column is taken for times, if damaged ones; half of a motion's rise."""
+
+
+def layout_of(text: TextFile, block: Block, given: Given) -> str:
+    """Return "columns" or "rows", from the count in the header, the rows themselves, or the caller."""
+    table = block.table
+    if block.headings:
+        if given.layout == ROWS and table.width > 1:
+            raise text.refusal(block.heading_line, "each column has a heading: layout cannot be 'rows'")
+        return COLUMNS
+    if table.width == 1:
+        return COLUMNS
+    if given.layout is not None:
+        return given.layout
+    counts = {count for _, count, _ in block.stated.counts}
+    if table.values.size in counts:
+        return ROWS
+    if table.rows in counts and table.ragged is None and not table.short_last:
+        return COLUMNS
+    if table.ragged is not None:
+        found = table.dialect.numbers(text.lines[table.ragged - 1]) or []
+        raise text.refusal(
+            table.ragged, f"expected {table.width} columns as in line {table.first}, found {len(found)}"
+        )
+    if counts:
+        line, count, phrase = block.stated.counts[0]
+        found = f"{table.rows} rows with {table.values.size} values"
+        raise text.refusal(table.last, f"expected {count}, as line {line} says ({phrase!r}), but found {found}")
+    if table.short_last:
+        return ROWS
+    if rises(table.columns[:, 0]):
+        return COLUMNS
+    return _by_smoothness(text, table)
+
+
+def rises(column: NDArray[np.float64]) -> bool:
+    """Say whether a column goes upward as times do."""
+    steps = np.diff(column)
+    upward = int(np.count_nonzero(steps > 0.0))
+    level = int(np.count_nonzero(steps == 0.0))
+    return upward >= 1 and (upward + level) >= RISING * steps.size and upward >= 0.3 * steps.size
+
+
+def counts_rows(table: Table, column: int, decimals: int) -> bool:
+    """Say whether a column holds 0, 1, 2, ... or 1, 2, 3, ..., which number rows and are no times."""
+    values = table.columns[:, column]
+    return (
+        decimals <= 0
+        and values[0] in {0.0, 1.0}
+        and bool((np.diff(values) == 1.0).all())
+    )
+
+
+def _by_smoothness(text: TextFile, table: Table) -> str:
+    rows = table.columns
+    along = float(np.abs(np.diff(rows, axis=1)).mean())
+    across = float(np.abs(np.diff(rows, axis=0)).mean())
+    if along < CLEARLY * across:
+        return ROWS
+    if across < CLEARLY * along:
+        return COLUMNS
+    raise text.refusal(
+        table.first,
+        f"{table.width} numbers a row, the first no time, may be as many columns or one series: "
+        "give layout, 'columns' or 'rows'",
+    )
