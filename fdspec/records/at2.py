@@ -18,6 +18,7 @@ _QUANTITY: Final = re.compile(
     r"(ACCELERATION|VELOCITY|DISPLACEMENT) TIME (?:HISTORY|SERIES) IN UNITS OF ([^.\s,]+(?:\.\d+)?)", re.IGNORECASE
 )
 _FILTER: Final = re.compile(r"FILTER POINTS:\s*(.*\S)", re.IGNORECASE)
+_STEP: Final = re.compile(r"\bDT\s{0,9}=\s{0,9}([0-9.EeDd+-]{1,20})", re.IGNORECASE)
 _COUNT: Final = re.compile(r"\d{1,12}", re.ASCII)
 
 
@@ -70,19 +71,15 @@ def _npts_and_dt(text: TextFile) -> tuple[int, float]:
         if not _COUNT.fullmatch(words[0]):
             words.reverse()
         counts, steps = [int(words[0])] if _COUNT.fullmatch(words[0]) else [], [parse_number(words[1])]
-    if len(counts) != 1 or len(steps) > 1 or (not steps and not _has_bad_step(line)):
+    shown = _STEP.search(line)
+    bad = shown[1] if shown and parse_number(shown[1]) is not None else words[-1] if steps else None
+    if len(counts) != 1 or len(steps) > 1 or (not steps and bad is None):
         raise text.refusal(4, f"expected 'NPTS= n, DT= t SEC' or 'n t NPTS, DT', found {line[:60]!r}")
     if counts[0] < 2:
         raise text.refusal(4, f"expected NPTS of at least 2, found {counts[0]}")
     if not steps or steps[0] is None or steps[0] <= 0.0:
-        raise text.refusal(4, f"expected a positive DT in s, found {line[:60]!r}")
+        raise text.refusal(4, f"expected a positive DT in s, found {bad}")
     return counts[0], steps[0]
-
-
-def _has_bad_step(line: str) -> bool:
-    """Say whether DT stands there with a number that is no step."""
-    match = re.search(r"\bDT\s{0,9}=\s{0,9}([0-9.EeDd+-]{1,20})", line, re.IGNORECASE)
-    return match is not None and parse_number(match[1]) is not None
 
 
 def _origin(line: str) -> tuple[str, str, str]:

@@ -13,7 +13,7 @@ from fdspec.records.block import Block
 from fdspec.records.channel import Channel
 from fdspec.records.given import Given
 from fdspec.records.headings import Heading
-from fdspec.records.layout import counts_rows, rises
+from fdspec.records.layout import always_rises, counts_rows, rises
 from fdspec.records.origin import origin_of
 from fdspec.records.rows import Table, printed_times
 from fdspec.records.series import (
@@ -113,7 +113,7 @@ def _first_column_of_times(text: TextFile, block: Block, given: Given) -> int | 
                 text.take(None, "column 1 counts the rows")
                 time = 1 if table.width > 2 and rises(table.columns[:, 1]) else -1
     for k in range(table.width):
-        if k not in {0, time} and rises(table.columns[:, k]) and table.rows >= 10:
+        if k not in {0, time} and table.rows >= 10 and always_rises(table.columns[:, k]):
             raise text.refusal(
                 table.first, f"column {k + 1} rises like times, but no heading says so: give the columns headings"
             )

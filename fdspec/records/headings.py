@@ -62,7 +62,9 @@ def heading_of(cell: str) -> Heading:
     rest = text
     for match in list(_BRACKETS.finditer(text))[::-1]:
         found = unit_of(match[1])
-        if found is not None and unit is None and not _is_argument(text, match):
+        if found is not None and unit is not None and found != unit and found.quantity == unit.quantity:
+            unit_text = f"{match[1]} and {unit.name}"
+        elif found is not None and unit is None and not _is_argument(text, match):
             unit = found
         elif _NOT_MEASURED.fullmatch(match[1].strip()):
             unit_text = match[1].strip()
@@ -82,6 +84,8 @@ def heading_of(cell: str) -> Heading:
     quantity, other = _quantity(name)
     if unit is None and not name and text:
         unit = unit_of(text)
+    if unit_text:
+        unit = None
     heading = Heading(text, name or text, quantity, unit, unit_text, other, subscript)
     return _with_unit(heading)
 

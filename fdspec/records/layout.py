@@ -57,9 +57,18 @@ def layout_of(text: TextFile, block: Block, given: Given) -> str:
 def rises(column: NDArray[np.float64]) -> bool:
     """Say whether a column goes upward as times do."""
     steps = np.diff(column)
-    upward = int(np.count_nonzero(steps > 0.0))
-    level = int(np.count_nonzero(steps == 0.0))
-    return upward >= 1 and (upward + level) >= RISING * steps.size and upward >= 0.3 * steps.size
+    half = column.size // 2
+    later = column[half:] > column[: column.size - half]  # a sawtooth goes upward most of the time, and nowhere
+    upward = np.count_nonzero(steps > 0.0)
+    level = np.count_nonzero(steps == 0.0)
+    return bool(
+        upward >= 0.3 * steps.size and upward + level >= RISING * steps.size and later.mean() >= RISING
+    )
+
+
+def always_rises(column: NDArray[np.float64]) -> bool:
+    """Say whether a column never goes back and ends above where it begins."""
+    return bool((np.diff(column) >= 0.0).all() and column[-1] > column[0])
 
 
 def counts_rows(table: Table, column: int, decimals: int) -> bool:

@@ -84,22 +84,21 @@ def _parse_word(text: TextFile, number: int, word: str) -> list[float]:
     value = parse_number(word)
     if value is not None:
         return [value]
-    values = stuck_numbers(word)
-    if values is None:
+    parts = stuck_words(word)
+    if parts is None:
         raise text.refusal(number, f"expected a finite number, found {word[:40]!r}")
-    return values
+    return [parsed for part in parts if (parsed := parse_number(part)) is not None]
 
 
-def stuck_numbers(word: str) -> list[float] | None:
+def stuck_words(word: str) -> list[str] | None:
     """Return the numbers that touch in a word, None when it can be read in another way or not at all."""
-    values = []
+    parts = []
     position = 0
     while match := _STUCK.match(word, position):
         if position and word[position] not in "+-":
             return None
-        value = parse_number(match.group())
-        if value is None:
+        if parse_number(match.group()) is None:
             return None
-        values.append(value)
+        parts.append(match.group())
         position = match.end()
-    return values if values and position == len(word) else None
+    return parts if parts and position == len(word) else None

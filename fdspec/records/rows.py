@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from fdspec.records.numbers import CHUNK, parse_number, stuck_numbers
+from fdspec.records.numbers import CHUNK, parse_number, stuck_words
 from fdspec.records.textfile import TextFile
 from fdspec.records.time_step import PrintedTimes, precision
 
@@ -67,20 +67,26 @@ class Dialect:
 
     def numbers(self, line: str) -> list[float] | None:
         """Return the numbers of a row, None when the line is none; values that touch are parted by signs."""
-        cells = self.cells(line)
-        if not cells:
-            return None
         values: list[float] = []
-        for cell in cells:
-            value = parse_number(cell)
-            if value is not None:
-                values.append(value)
-                continue
-            stuck = stuck_numbers(cell) if self.separator is None and not self.comma else None
-            if stuck is None:
+        for word in self.words(line):
+            value = parse_number(word)
+            if value is None:
                 return None
-            values += stuck
-        return values
+            values.append(value)
+        return values or None
+
+    def words(self, line: str) -> list[str]:
+        """Return the cells of a row, those that touch parted."""
+        cells = self.cells(line)
+        if self.separator is not None or self.comma:
+            return cells
+        words: list[str] = []
+        for cell in cells:
+            if parse_number(cell) is None and (stuck := stuck_words(cell)) is not None:
+                words += stuck
+            else:
+                words.append(cell)
+        return words
 
     @property
     def said(self) -> str:
@@ -158,6 +164,12 @@ def dialect_of(text: TextFile, start: int = 1) -> Dialect | None:
         return None
     most = max(scores.values())
     best = [dialect for dialect in _DIALECTS if scores[dialect] == most]
+    if best[0].separator == "\t":  # blanks and tabs are often mixed; only empty cells need the tabs
+        by_blanks = replace(best[0], separator=None)
+        if by_blanks in best and all(
+            len(by_blanks.words(line)) == len(best[0].cells(line)) for line in lines if "\t" in line
+        ):
+            best.insert(0, by_blanks)
     one_comma = Dialect(",")
     if one_comma in best and Dialect(None, comma=True) in best:
         return _settle_commas(text, lines)
@@ -322,7 +334,7 @@ def _quick(block: str, dialect: Dialect, width: int) -> NDArray[np.float64] | No
 
 
 def _odd_line(text: TextFile, number: int, dialect: Dialect, first: int, width: int) -> Exception:
-    for cell in dialect.cells(text.lines[number - 1]):
+    for cell in dialect.words(text.lines[number - 1]):
         if parse_number(cell) is None:
             return text.refusal(number, f"expected a finite number, found {cell[:40]!r}")
     return text.refusal(number, f"expected {width} columns as in line {first}, found none")
@@ -335,7 +347,7 @@ def printed_times(text: TextFile, table: Table, column: int) -> PrintedTimes:
     for start in range(table.first, table.last + 1, CHUNK):
         end = min(start + CHUNK - 1, table.last)
         found = [
-            table.dialect.cells(text.lines[number - 1])[column]
+            table.dialect.words(text.lines[number - 1])[column]
             for number in range(start, end + 1)
             if number not in skipped
         ]

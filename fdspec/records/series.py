@@ -14,6 +14,9 @@ from fdspec.records.units import KNOWN
 STEP_TOLERANCE: Final = 1e-3
 """Relative; a header's rate or step may be rounded: 409.8 a second for 0.00244 s."""
 
+SHORT_HEADER: Final = 6
+"""Lines; in a longer one a unit in brackets may be of anything."""
+
 GIVE_UNITS: Final = f"give units, one of {', '.join(KNOWN)}"
 
 
@@ -52,7 +55,9 @@ def unit_of_column(text: TextFile, block: Block, heading: Heading | None, given:
             )
         text.take(block.heading_line, f"{heading.text!r}: its unit is overruled by the one given, {given.units}")
         return given.units
-    stated = {unit.name: (line, phrase) for line, unit, phrase in block.stated.units if unit.quantity == words.ACCELERATION}
+    said = [entry for entry in block.stated.units if entry[1].quantity == words.ACCELERATION]
+    bracketed = block.stated.bracketed if len(block.header) <= SHORT_HEADER else []
+    stated = {unit.name: (line, phrase) for line, unit, phrase in said or bracketed}
     own = {
         h.unit.name for h in block.headings or () if h.unit is not None and h.unit.quantity == words.ACCELERATION
     }

@@ -57,7 +57,7 @@ _NOT_A_COUNT: Final = re.compile(
     r"(?:skipped|missing|lost|bad|dropped|clipped|spurious|interpolated|leading|trailing|first|last|pre-?event|"
     r"padded|each|every|db|period|frequency)\s{0,3}$"
 )
-_KEY_COUNT: Final = re.compile(rf"(?<![\w]){_COUNT_KEY}{_OPTIONAL_UNIT}{_IS}(?P<n>\d{{1,12}})(?![\w.,]\d|\.\d|[a-z])")
+_KEY_COUNT: Final = re.compile(rf"(?<![\w]){_COUNT_KEY}{_OPTIONAL_UNIT}{_IS}(?P<n>\d{{1,12}})(?!\d|[\w.,]\d|[a-z])")
 _BARE_COUNT: Final = re.compile(rf"(?<![\w]){_BARE_COUNT_KEY}\s{{0,3}}[:=]\s{{0,12}}(?P<n>\d{{1,12}})(?!\.\d|\w)")
 _COUNT_NOUN: Final = re.compile(
     r"(?<![\w.+-])(?P<n>\d{1,12})\s{1,3}(?:(?:data|accelerogram|acceleration|accel|acc|record|time|discrete|digiti[sz]ed|"
@@ -96,6 +96,7 @@ _A_NOTE: Final = re.compile(
     r"en buyuk|arias|target|duration)\b|最大|峰值|ピーク"
 )
 _BLANKS: Final = re.compile(r"\s{3,}")
+_BRACKETED: Final = re.compile(r"[\[(]\s{0,3}([^()\[\]]{1,20})[\])]")
 _INSTRUMENT: Final = re.compile(r"(?:accelero|acelero)(?:met|graph|graf)\w*|accelerometr\w*|velocimet\w*|速度計|加速度計")
 _CLAUSE: Final = re.compile(r"[;,]\s|\s{3,}")
 _COMPONENTS: Final = re.compile(
@@ -106,11 +107,15 @@ _COMPONENTS: Final = re.compile(
 
 @dataclass
 class Statements:
-    """What was stated, each with its line (counted from 1) and the words that say it."""
+    """What was stated, each with its line (counted from 1) and the words that say it.
+
+    `bracketed` are units of acceleration that stand in brackets, and nothing says of what.
+    """
 
     counts: list[tuple[int, int, str]] = field(default_factory=list)
     steps: list[tuple[int, float | None, str]] = field(default_factory=list)
     units: list[tuple[int, Unit, str]] = field(default_factory=list)
+    bracketed: list[tuple[int, Unit, str]] = field(default_factory=list)
     components: list[tuple[int, list[str]]] = field(default_factory=list)
     mentioned: dict[str, set[int]] = field(default_factory=dict)
 
@@ -223,6 +228,12 @@ def _read_unit(found: Statements, number: int, clause: str, rest: str) -> None:
             if unit is not None:
                 found.units.append((number, unit, f"{word[0]} {before[0].strip()} {spelling}"))
                 return
+    for bracket in _BRACKETED.finditer(clause):
+        if any(char.isdigit() for char in clause[: bracket.start()][-2:] + clause[bracket.end() :][:2]):
+            continue
+        unit = unit_of(bracket[1])
+        if unit is not None and unit.quantity == vocabulary.ACCELERATION:
+            found.bracketed.append((number, unit, bracket[0]))
 
 
 def _longest_unit(text: str) -> tuple[Unit | None, str]:

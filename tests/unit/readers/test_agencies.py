@@ -29,6 +29,12 @@ SAID = {
     ),
     "CSMIP V1": (["90 Deg", "Up"], 0.01, "Sat Jan 02, 1999 12:00:00.0 UTC", "Old Mill", "90 Deg", ""),
     "CSMIP V1 in pairs": (["NS"], 0.01, "01/02/1999 12:00:00", "OLD MILL", "NS", ""),
+    "CSMIP V1 of CDMG": (["90 DEG", "UP"], 0.01, "", "OLD MILL", "90 DEG", ""),
+    "USGS blocks": (
+        ["90"], 0.01, "EARTHQUAKE OF JANUARY 2, 1999 1200 GMT", "OLD MILL, 1 MILL ROAD, GROUND", "90",
+        "filtered by the agency: BUTTERWORTH AT .25 HZ",
+    ),
+    "AFAD": (["HNE"], 0.01, "NOWHERE 19990102", "MILL", "HNE", "by the agency: "),
     "USGS SMC": (["90"], 0.01, "1999 01 02 1200 Nowhere", "Old Mill", "90", ""),
     "ESM or ITACA ASCII": (["HNE"], 0.01, "NOWHERE 19990102", "MILL", "HNE", "by the agency: "),
     "K-NET or KiK-net": (
@@ -88,6 +94,9 @@ COUNTS = {
     "CSMIP V2 of 1983": "   23 POINTS OF ACCEL",
     "CSMIP V1": "    23 Accelerogram points",
     "CSMIP V1 in pairs": "NO. OF POINTS =     23",
+    "CSMIP V1 of CDMG": "   23 POINTS OF ACCEL",
+    "USGS blocks": "NO OF POINTS=    23",
+    "AFAD": "NDATA: 23",
     "USGS SMC": "    -32768         1\n        23    -32768",
     "ESM or ITACA ASCII": "NDATA: 23",
     "K-NET or KiK-net": "Duration Time(s)  2",
