@@ -17,6 +17,7 @@ FIRST_VALUES: Final = 5
 _QUANTITY: Final = re.compile(
     r"(ACCELERATION|VELOCITY|DISPLACEMENT) TIME (?:HISTORY|SERIES) IN UNITS OF ([^.\s,]+(?:\.\d+)?)", re.IGNORECASE
 )
+_PUBLISHER: Final = re.compile(r"\b(?:PEER|PACIFIC ENGINEERING|STRONG[- ]MOTION)\b", re.IGNORECASE)
 _FILTER: Final = re.compile(r"FILTER POINTS:\s*(.*\S)", re.IGNORECASE)
 _STEP: Final = re.compile(r"\bDT\s{0,9}=\s{0,9}([0-9.EeDd+-]{1,20})", re.IGNORECASE)
 _COUNT: Final = re.compile(r"\d{1,12}", re.ASCII)
@@ -24,7 +25,14 @@ _COUNT: Final = re.compile(r"\d{1,12}", re.ASCII)
 
 def recognises(text: TextFile) -> bool:
     """Say whether the file is PEER's, from its third line."""
-    return len(text.lines) > 2 and _QUANTITY.match(text.head(3).strip()) is not None
+    if len(text.lines) < 3 or _QUANTITY.match(text.head(3).strip()) is None:
+        return False
+    if _PUBLISHER.search(text.head(1)) or len(text.lines) < 4:
+        return True
+    stated = statements([(4, text.head(4))])
+    words = text.head(4).split()
+    numbers = len(words) == 2 and sum(_COUNT.fullmatch(word) is not None for word in words) == 1
+    return (numbers and all(parse_number(word) is not None for word in words)) or bool(stated.counts and stated.steps)
 
 
 def read(text: TextFile) -> tuple[Channel, ...]:

@@ -9,8 +9,8 @@ from typing import Final
 from fdspec.records import vocabulary as words
 from fdspec.records.headings import Heading, heading_of, is_unit_row, row_of
 from fdspec.records.numbers import parse_number
-from fdspec.records.rows import Dialect, Table, first_row, table_from
-from fdspec.records.statements import Statements, statements
+from fdspec.records.rows import Dialect, Table, first_row, rises, runs_on, table_from
+from fdspec.records.statements import Statements, is_note, statements
 from fdspec.records.textfile import TextFile
 from fdspec.records.units import unit_of
 
@@ -22,6 +22,7 @@ _LOOK_UP: Final = 5
 
 _RULE: Final = re.compile(r"[\s\-=_*#+|.~]*")
 _BRACKET_ENDS: Final = re.compile(r"[^()\[\]]{0,80}[(\[][^()\[\]]{0,40}[)\]]")
+_ABSCISSAE: Final = frozenset({words.TIME, words.PERIOD, words.FREQUENCY})
 _EXPLICIT: Final = frozenset(
     {
         words.TIME, words.ACCELERATION, words.VELOCITY, words.DISPLACEMENT, words.PERIOD, words.FREQUENCY,
@@ -57,6 +58,7 @@ def block_from(text: TextFile, start: int, dialect: Dialect, told: bool = False)
     numeric = 0 if told else _numeric_lines(text, first, dialect)
     table, behind = table_from(text, first + numeric, dialect)
     top = 1 if told else start
+    _refuse_lone_rows(text, start, first, table)
     stated = Statements()
     for number in range(first, first + numeric):
         _read_numeric(text, number, dialect, stated)
@@ -75,6 +77,16 @@ def block_from(text: TextFile, start: int, dialect: Dialect, told: bool = False)
     else:
         stated = Statements()
     return Block(top, table, headings, line, stated), behind
+
+
+def _refuse_lone_rows(text: TextFile, start: int, first: int, table: Table) -> None:
+    """Refuse a line among the words above that is like the rows below: it may be the first of them."""
+    for number in range(start, first):
+        found = table.dialect.numbers(text.lines[number - 1])
+        if found is not None and len(found) == table.width > 1:
+            raise text.refusal(
+                number, f"{table.width} numbers as in the rows below line {first}, apart from them: expected words"
+            )
 
 
 def _numeric_lines(text: TextFile, first: int, dialect: Dialect) -> int:
@@ -158,8 +170,15 @@ def _headings(text: TextFile, start: int, first: int, table: Table) -> tuple[lis
                     number -= 1
             headings = row_of(cells)
             said = statements([(number, line)])
-            if said.counts or said.steps:
+            if said.counts or said.steps or is_note(line):
                 continue
+            if cells[0] == "" and (table.ragged or not rises(table.first_column)):
+                continue
+            abscissae = [k for k, heading in enumerate(headings) if heading.quantity in _ABSCISSAE]
+            if not abscissae and not _without_abscissa(line, headings, table):
+                continue
+            if abscissae and cells == _grouped(line.split()) and not _rises_in(table, abscissae[0], width):
+                continue  # "acceleration time series"
             if _is_heading(headings, width, looked == 1):
                 if width < table.width:
                     table = _merged(text, table)
@@ -183,8 +202,7 @@ def _heading_cells(line: str, dialect: Dialect, width: int) -> list[str] | None:
     ]
     splits.append(re.split(r"\s{2,20}", stripped))
     splits.append(_grouped(stripped.split()))
-    ends = _BRACKET_ENDS.findall(stripped)
-    splits.append([end.strip(" ,;\t") for end in ends])
+    splits.append(_bracketed(stripped))
     for cells in splits:
         if len(cells) == width:
             return cells
@@ -195,6 +213,18 @@ def _heading_cells(line: str, dialect: Dialect, width: int) -> list[str] | None:
         if len(cells) == width - 1 and width > 1 and all(cells):
             return ["", *cells]
     return None
+
+
+def _bracketed(line: str) -> list[str]:
+    """Return the parts of a line that end in brackets: Zeit [s] Beschleunigung EW [g] makes two."""
+    cells: list[str] = []
+    for part in _BRACKET_ENDS.findall(line):
+        cell = part.strip(" ,;\t")
+        if cells and cell.startswith(("(", "[")):
+            cells[-1] += f" {cell}"
+        else:
+            cells.append(cell)
+    return cells
 
 
 def _grouped(found: list[str]) -> list[str]:
@@ -235,6 +265,24 @@ def _is_heading(headings: list[Heading], width: int, nearest: bool) -> bool:
         return not odd or nearest
     directions = [h for h in headings if h.quantity == words.DIRECTION]
     return nearest and len(directions) >= width - 1 and len({h.text for h in directions}) == len(directions)
+
+
+def _without_abscissa(line: str, headings: list[Heading], table: Table) -> bool:
+    """Say whether headings that name no time are headings all the same, and no sentence of as many words."""
+    if len(headings) == 1:
+        return True
+    if ":" in line or "=" in line or any(h.name == h.text and unit_of(h.text) is not None for h in headings):
+        return False
+    named = [h for h in headings if h.text]
+    if any(h.quantity == words.UNKNOWN and h.unit is None for h in named):
+        return False
+    return not runs_on(table)
+
+
+def _rises_in(table: Table, column: int, width: int) -> bool:
+    """Say whether a column of a full table rises as times and periods do."""
+    full = table.ragged is None and not table.short_last and width == table.width
+    return full and rises(table.columns[:, column])
 
 
 def _is_short(heading: Heading) -> bool:

@@ -13,9 +13,9 @@ from fdspec.records.block import Block
 from fdspec.records.channel import Channel
 from fdspec.records.given import Given
 from fdspec.records.headings import Heading
-from fdspec.records.layout import always_rises, counts_rows, rises
+from fdspec.records.layout import counts_rows
 from fdspec.records.origin import origin_of
-from fdspec.records.rows import Table, printed_times
+from fdspec.records.rows import Table, always_rises, printed_times, rises
 from fdspec.records.series import (
     STEP_TOLERANCE,
     check_count,

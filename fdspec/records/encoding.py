@@ -55,9 +55,11 @@ def _wide_or_marked(content: bytes) -> str | None:
         if content.startswith(mark):
             return encoding
     # UTF-16 without its mark: every other byte of Latin text is zero.
-    head = content[:400]
-    if len(head) >= 8:
-        even, odd = head[0::2], head[1::2]
+    middle = len(content) // 4 * 2
+    for part in (content[:400], content[middle : middle + 400]):  # headings may be Greek, rows are not
+        if len(part) < 8:
+            continue
+        even, odd = part[0::2], part[1::2]
         if odd.count(0) > 0.9 * len(odd) and even.count(0) < 0.1 * len(even):
             return "utf-16-le"
         if even.count(0) > 0.9 * len(even) and odd.count(0) < 0.1 * len(odd):

@@ -5,26 +5,23 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fdspec.records import vocabulary as words
 from fdspec.records.block import Block
 from fdspec.records.given import Given
-from fdspec.records.rows import Table
+from fdspec.records.rows import CLEARLY, Table, rises, roughness
 from fdspec.records.textfile import TextFile
 
 COLUMNS: Final = "columns"
 ROWS: Final = "rows"
 
-CLEARLY: Final = 0.7
-"""Neighbours along a series differ less than values a row apart, by this factor at least, or nothing is concluded."""
-
-RISING: Final = 0.8
-"""Share of steps upward from which a first column is taken for times, if damaged ones; half of a motion's rise."""
-
-
 def layout_of(text: TextFile, block: Block, given: Given) -> str:
     """Return "columns" or "rows", from the count in the header, the rows themselves, or the caller."""
     table = block.table
+    totals = {count for _, count, _ in block.stated.counts}
+    timed = any(heading.quantity == words.TIME for heading in block.headings or ())
+    if block.headings and not timed and table.values.size in totals and table.rows not in totals:
+        return ROWS  # what looks like headings is a sentence of as many words
     if block.headings:
         if given.layout == ROWS and table.width > 1:
             raise text.refusal(block.heading_line, "each column has a heading: layout cannot be 'rows'")
@@ -54,23 +51,6 @@ def layout_of(text: TextFile, block: Block, given: Given) -> str:
     return _by_smoothness(text, table)
 
 
-def rises(column: NDArray[np.float64]) -> bool:
-    """Say whether a column goes upward as times do."""
-    steps = np.diff(column)
-    half = column.size // 2
-    later = column[half:] > column[: column.size - half]  # a sawtooth goes upward most of the time, and nowhere
-    upward = np.count_nonzero(steps > 0.0)
-    level = np.count_nonzero(steps == 0.0)
-    return bool(
-        upward >= 0.3 * steps.size and upward + level >= RISING * steps.size and later.mean() >= RISING
-    )
-
-
-def always_rises(column: NDArray[np.float64]) -> bool:
-    """Say whether a column never goes back and ends above where it begins."""
-    return bool((np.diff(column) >= 0.0).all() and column[-1] > column[0])
-
-
 def counts_rows(table: Table, column: int, decimals: int) -> bool:
     """Say whether a column holds 0, 1, 2, ... or 1, 2, 3, ..., which number rows and are no times."""
     values = table.columns[:, column]
@@ -82,9 +62,7 @@ def counts_rows(table: Table, column: int, decimals: int) -> bool:
 
 
 def _by_smoothness(text: TextFile, table: Table) -> str:
-    rows = table.columns
-    along = float(np.abs(np.diff(rows, axis=1)).mean())
-    across = float(np.abs(np.diff(rows, axis=0)).mean())
+    along, across = roughness(table)
     if along < CLEARLY * across:
         return ROWS
     if across < CLEARLY * along:

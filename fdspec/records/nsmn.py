@@ -14,13 +14,17 @@ from fdspec.records.units import to_si
 
 NAME: Final = "NSMN (Turkey)"
 MAX_HEADER: Final = 60
+KEYS: Final = ("EARTHQUAKE DATE", "STATION ID", "NUMBER OF DATA", "SAMPLING INTERVAL", "RAW PGA VALUES")
+"""Half of them tell the format, too."""
+
 COMPONENTS: Final = ("N-S", "E-W", "U-D")
 
 
 def recognises(text: TextFile) -> bool:
     """Say whether title or count are the network's: without its title, a cut file would pass for columns."""
     title = text.head(1).strip().upper().startswith("STRONG GROUND MOTION RECORDS OF TURK")
-    return title or any(line.lstrip().startswith("NUMBER OF DATA") for line in text.heads(1, MAX_HEADER))
+    heads = text.heads(1, MAX_HEADER)
+    return title or sum(any(head.lstrip().startswith(key) for head in heads) for key in KEYS) >= len(KEYS) // 2
 
 
 def read(text: TextFile) -> tuple[Channel, ...]:

@@ -22,6 +22,12 @@ MAX_HEADER: Final = 200
 MAX_BETWEEN: Final = 1000
 """Lines without numbers between two rows; more end the rows."""
 
+RISING: Final = 0.8
+"""Share of steps upward from which a first column is taken for times, if damaged ones; half of a motion's rise."""
+
+CLEARLY: Final = 0.7
+"""Neighbours along a series differ less than values a row apart, by this factor at least, or nothing is concluded."""
+
 _SAMPLE: Final = 40
 """Lines looked at, in each of three places, to tell what parts the cells."""
 
@@ -126,6 +132,11 @@ class Table:
         """The values as rows and columns; only of a table that is full."""
         return self.values.reshape(self.rows, self.width)
 
+    @property
+    def first_column(self) -> NDArray[np.float64]:
+        """The first value of each row, the last row's left out when it is short."""
+        return self.values[: self.values.size // self.width * self.width : self.width]
+
     def line(self, row: int) -> int:
         """Return the number of the line that a row stands in."""
         return PrintedTimes(self.values, 0, 0, self.first, self.skipped).line(row)
@@ -217,7 +228,9 @@ def first_row(text: TextFile, dialect: Dialect, start: int = 1, *, told: bool = 
     for number in range(start, min(start + MAX_HEADER, last) + 1):
         if dialect.numbers(text.lines[number - 1]) is not None:
             following = number + 1
-            while following <= last and not text.lines[following - 1].strip():
+            while following <= last and (
+                not text.lines[following - 1].strip() or is_remark(text.lines[following - 1])
+            ):
                 following += 1
             if following <= last and dialect.numbers(text.lines[following - 1]) is not None:
                 return number
@@ -357,3 +370,32 @@ def printed_times(text: TextFile, table: Table, column: int) -> PrintedTimes:
     return PrintedTimes(
         np.ascontiguousarray(table.columns[:, column]), decimals, digits, table.first, table.skipped
     )
+
+
+def rises(column: NDArray[np.float64]) -> bool:
+    """Say whether a column goes upward as times do."""
+    steps = np.diff(column)
+    half = column.size // 2
+    later = column[half:] > column[: column.size - half]  # a sawtooth goes upward most of the time, and nowhere
+    upward = np.count_nonzero(steps > 0.0)
+    level = np.count_nonzero(steps == 0.0)
+    return bool(
+        upward >= 0.3 * steps.size and upward + level >= RISING * steps.size and later.mean() >= RISING
+    )
+
+
+def always_rises(column: NDArray[np.float64]) -> bool:
+    """Say whether a column never goes back and ends above where it begins."""
+    return bool((np.diff(column) >= 0.0).all() and column[-1] > column[0])
+
+
+def roughness(table: Table) -> tuple[float, float]:
+    """Return the mean difference of neighbours in a row, and of values below each other."""
+    whole = table.values[: table.values.size // table.width * table.width].reshape(-1, table.width)
+    return float(np.abs(np.diff(whole, axis=1)).mean()), float(np.abs(np.diff(whole, axis=0)).mean())
+
+
+def runs_on(table: Table) -> bool:
+    """Say whether the values clearly run on along the rows."""
+    along, across = roughness(table)
+    return along < CLEARLY * across

@@ -73,7 +73,7 @@ _KEY_RATE: Final = re.compile(
 )
 _RATE_NOUN: Final = re.compile(
     rf"(?<![\w.+-])(?P<n>{_NUMBER})\s{{0,3}}(?:(?:samples?|points?|pts|values?|data)\s{{0,2}}(?:/|per|a)\s{{0,2}}"
-    r"(?:s|sec|second)\b|sps\b)"
+    r"(?:s|sec|second)\b|sps\b)(?!\s{0,3}[:=])"
 )
 _NUMBERS_THEN_KEYS: Final = re.compile(
     rf"\s{{0,40}}(?P<first>{_NUMBER})[\s,]{{1,40}}(?P<second>{_NUMBER})[\s,]{{1,40}}"
@@ -83,7 +83,7 @@ _UNIT_WORD: Final = re.compile(
     r"\b(?:units?|einheit(?:en)?|unidad(?:es)?|unita|unites?|birimi?|единиц[аы]|unidade)\b|单位|單位|単位"
 )
 _UNIT_FILLER: Final = re.compile(
-    r"(?:\s|:|=|\(|\[|\bof\b|\bis\b|\bare\b|\bin\b|\bde\b|\bdi\b|\bfor\b|\bthe\b|\bdata\b|\bdatos\b|\blos\b|\bla\b|\bdei\b|"
+    r"(?:\s|:|=|\(|\[|\bof\b|\bis\b|\bare\b|\bin\b(?=\s)|\bde\b|\bdi\b|\bfor\b|\bthe\b|\bdata\b|\bdatos\b|\blos\b|\bla\b|\bdei\b|"
     r"\bdati\b|\buncor\b|\bcorr?\b|\bground\b|\bmotion\b|\bvalues?\b|\baccel\w*|\bacc\b|\baceler\w*|\bbeschl\w*|\bsec and\b){0,8}"
 )
 _ACCELERATION: Final = re.compile(
@@ -98,6 +98,7 @@ _A_NOTE: Final = re.compile(
 _BLANKS: Final = re.compile(r"\s{3,}")
 _BRACKETED: Final = re.compile(r"[\[(]\s{0,3}([^()\[\]]{1,20})[\])]")
 _INSTRUMENT: Final = re.compile(r"(?:accelero|acelero)(?:met|graph|graf)\w*|accelerometr\w*|velocimet\w*|速度計|加速度計")
+_OF_FILTERS: Final = re.compile(r"\b(?:filter|cut-?off|cut|corner|poles?|order|nyquist|pass|bandpass|magnitude)\b")
 _CLAUSE: Final = re.compile(r"[;,]\s|\s{3,}")
 _COMPONENTS: Final = re.compile(
     r"\b(?:components?|channels?|directions?|orientation|komponenten?|richtungen?|componentes?|canales|composantes?|"
@@ -129,6 +130,12 @@ def statements(lines: Iterable[tuple[int, str]], *, decimal_comma: bool = False)
             names = line[:MAX_STATEMENT][match.start("names") :].replace(",", " ").replace("/", " ").split()
             found.components.append((number, names))
     return found
+
+
+def is_note(line: str) -> bool:
+    """Say whether a line is about a peak, a range or a filter, or says that something has a value."""
+    text = plain(line[:MAX_STATEMENT])
+    return _A_NOTE.search(text) is not None or _OF_FILTERS.search(text) is not None or re.search(r"\bunits? (?:of|are|is)\b", text) is not None
 
 
 def _prepared(line: str, decimal_comma: bool) -> str:
