@@ -313,7 +313,7 @@ def table_from(text: TextFile, first: int, dialect: Dialect) -> tuple[Table, int
         if usual == width and len(odd_rows) == 1 and odd_rows[0][0] == last_row and odd_rows[0][1] < width:
             short_last, odd = True, None
     table = Table(
-        dialect, first, last_row, usual, rows, np.array(values), odd, short_last, tuple(remarks), tuple(skipped), blank
+        dialect, first, last_row, usual, rows, np.frombuffer(values), odd, short_last, tuple(remarks), tuple(skipped), blank
     )
     if pending and stopped > len(text.lines):
         stopped = pending[0]
@@ -333,10 +333,7 @@ def _quick(block: str, dialect: Dialect, width: int) -> NDArray[np.float64] | No
         expected = width - 1
         if any(line.strip(" ").count(separator) != expected for line in lines):
             return None
-        block = block.replace(separator, " ")
-    if dialect.comma:
-        block = block.replace(",", ".")
-    found = block.split()
+    found = _plain_words(block, dialect)
     if len(found) != width * len(lines):
         return None
     try:
@@ -344,6 +341,13 @@ def _quick(block: str, dialect: Dialect, width: int) -> NDArray[np.float64] | No
     except ValueError:
         return None
     return values if np.isfinite(values).all() else None
+
+
+def _plain_words(block: str, dialect: Dialect) -> list[str]:
+    """Return the words of rows without quotes and empty cells."""
+    if dialect.separator is not None:
+        block = block.replace(dialect.separator, " ")
+    return (block.replace(",", ".") if dialect.comma else block).split()
 
 
 def _odd_line(text: TextFile, number: int, dialect: Dialect, first: int, width: int) -> Exception:
@@ -359,11 +363,15 @@ def printed_times(text: TextFile, table: Table, column: int) -> PrintedTimes:
     skipped = set(table.skipped)
     for start in range(table.first, table.last + 1, CHUNK):
         end = min(start + CHUNK - 1, table.last)
-        found = [
-            table.dialect.words(text.lines[number - 1])[column]
-            for number in range(start, end + 1)
-            if number not in skipped
-        ]
+        block = text.block(start, end)
+        if _quick(block, table.dialect, table.width) is not None:
+            found = _plain_words(block, table.dialect)[column :: table.width]
+        else:
+            found = [
+                table.dialect.words(text.lines[number - 1])[column]
+                for number in range(start, end + 1)
+                if number not in skipped
+            ]
         if found:
             more = precision(found)
             decimals, digits = max(decimals, more[0]), max(digits, more[1])

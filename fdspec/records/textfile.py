@@ -51,6 +51,12 @@ class Lines(Sequence[str]):
             raise IndexError(index)
         return self._text[self._starts[k] : self._starts[k + 1] - 1]
 
+    def longer_than(self, length: int) -> list[int]:
+        """Return the numbers, counted from 1, of lines of more characters than `length`."""
+        if len(self._text) <= length:
+            return []
+        return [k for k in range(1, len(self) + 1) if self._starts[k] - self._starts[k - 1] - 1 > length]
+
     def block(self, first: int, last: int) -> str:
         """Return lines `first` to `last` (counted from 0, `last` excluded) in one text."""
         return self._text[self._starts[first] : self._starts[last] - 1]
@@ -127,12 +133,13 @@ def decode(content: bytes, name: str) -> TextFile:
     # str.splitlines would also split at form feeds and the like, and line numbers would be off.
     if not characters.strip():
         raise RecordError(f"{name}: the file has no text")
-    text = TextFile(name, Lines(characters))
+    lines = Lines(characters)
+    text = TextFile(name, lines)
     text.take(None, f"encoding: {encoding}")
-    if len(characters) > MAX_LINE:
-        for number, line in enumerate(text.lines, start=1):
-            if len(line) > MAX_LINE and not _OF_NUMBERS.issuperset(line):
-                raise text.refusal(
-                    number, f"expected lines of words of at most {MAX_LINE} characters, found {len(line)}"
-                )
+    for number in lines.longer_than(MAX_LINE):
+        line = lines[number - 1]
+        if not _OF_NUMBERS.issuperset(line):
+            raise text.refusal(
+                number, f"expected lines of words of at most {MAX_LINE} characters, found {len(line)}"
+            )
     return text

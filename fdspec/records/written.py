@@ -16,17 +16,24 @@ from fdspec.records.time_step import uniform_step
 
 NAME: Final = "columns of fdspec"
 TITLE: Final = "Ground motion written by fdspec"
+MAX_HEADER: Final = 400
+KEYS: Final = ("Scale factor", "Time step", "Samples")
 HEADING: Final = "time, s; acceleration, m/s2"
 """Without the brackets of plain columns: when the title is damaged, no unit is told, and the file refused."""
 
 
 def recognises(text: TextFile) -> bool:
-    """Say whether the first line is our title."""
-    return text.head(1).strip() == TITLE
+    """Say whether the first line is our title, or the keys below it are ours: a damaged title must not hide them."""
+    if text.head(1).strip() == TITLE:
+        return True
+    heads = text.heads(1, MAX_HEADER)
+    return sum(any(head.startswith(f"{key}:") for head in heads) for key in KEYS) >= len(KEYS) - 1
 
 
 def read(text: TextFile) -> tuple[Channel, ...]:
     """Read the one channel of the file."""
+    if text.head(1).strip() != TITLE:
+        raise text.refusal(1, f"expected {TITLE!r}, found {text.head(1).strip()[:60]!r}")
     keys: dict[str, tuple[int, str]] = {}
     steps = []
     for line in range(2, len(text.lines) + 1):
