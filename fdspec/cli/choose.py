@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from fdspec.cli.output import force_option, free
-from fdspec.cli.record_options import file_options, named_records
+from fdspec.cli.record_options import RecordsOption, file_options, named_records
 
 if TYPE_CHECKING:
     from fdspec.building import Building
@@ -19,6 +19,7 @@ PAGES = (".html", ".htm")
 @click.option(
     "--record",
     "records",
+    cls=RecordsOption,
     multiple=True,
     metavar="NAME|FILE",
     help="A record of the catalogue, or a file; repeat it.  [default: the study's nine]",

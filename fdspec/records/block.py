@@ -177,7 +177,8 @@ def _headings(text: TextFile, start: int, first: int, table: Table) -> tuple[lis
             abscissae = [k for k, heading in enumerate(headings) if heading.quantity in _ABSCISSAE]
             if not abscissae and not _without_abscissa(line, headings, table):
                 continue
-            if abscissae and cells == _grouped(line.split()) and not _rises_in(table, abscissae[0], width):
+            weak = abscissae and headings[abscissae[0]].unit is None and cells == _grouped(line.split())
+            if weak and not _rises_in(table, abscissae[0], width):
                 continue  # "acceleration time series"
             if _is_heading(headings, width, looked == 1):
                 if width < table.width:
@@ -281,6 +282,8 @@ def _without_abscissa(line: str, headings: list[Heading], table: Table) -> bool:
 
 def _rises_in(table: Table, column: int, width: int) -> bool:
     """Say whether a column of a full table rises as times and periods do."""
+    if column == 0 and table.ragged is None and width == table.width:
+        return rises(table.first_column)
     full = table.ragged is None and not table.short_last and width == table.width
     return full and rises(table.columns[:, column])
 

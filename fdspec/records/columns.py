@@ -41,6 +41,8 @@ def read_columns(text: TextFile, block: Block, given: Given) -> tuple[Channel, .
         found = len(table.dialect.numbers(text.lines[line - 1]) or [])
         raise text.refusal(line, f"expected {table.width} columns as in line {table.first}, found {found}")
     headings = block.headings or [Heading("", "", words.UNKNOWN)] * table.width
+    for k, heading in enumerate(block.headings or ()):
+        text.take(block.heading_line, f"heading of column {k + 1}, {heading.text!r}: {heading.said}")
     if block.headings is None or table.width == 1:
         refuse_other_quantities(text, block)
     check_count(text, block, table.rows, "rows")

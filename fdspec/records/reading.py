@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import warnings
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 
@@ -16,6 +18,13 @@ from fdspec.records.formats import BINARY_FORMATS, FORMATS
 from fdspec.records.given import Given, given
 from fdspec.records.resampling import at_equal_steps
 from fdspec.records.textfile import TextFile, decode, read_bytes
+
+
+LIKE_G: Final = (0.02, 0.8)
+"""Peaks of strong motions in g; in m/s2 they would hardly be felt."""
+
+MANY: Final = 100
+"""Samples from which a motion is no sketch."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +89,14 @@ def read_record(
     options = given(units, dt, skip, layout, resample_to)
     format_name, _, channels = _load(path, options)
     chosen = _choose(file, channels, channel)
-    return _motion(file, format_name, channels, at_equal_steps(file.name, chosen, options.resample_to), name)
+    motion = _motion(file, format_name, channels, at_equal_steps(file.name, chosen, options.resample_to), name)
+    if options.units == "m/s2" and motion.n >= MANY and LIKE_G[0] < motion.pga < LIKE_G[1]:
+        warnings.warn(
+            f"{file.name}: units are given as m/s2 and the peak is {motion.pga:.4g}: the numbers look like g",
+            UserWarning,
+            stacklevel=2,
+        )
+    return motion
 
 
 def read_channels(

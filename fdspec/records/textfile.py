@@ -103,7 +103,9 @@ class TextFile:
 
     def take(self, number: int | None, meaning: str) -> None:
         """Note what line `number`, or the whole file, was taken for."""
-        self.taken.append(meaning if number is None else f"line {number}: {meaning}")
+        said = meaning if number is None else f"line {number}: {meaning}"
+        if said not in self.taken:
+            self.taken.append(said)
 
 
 def read_bytes(path: str | os.PathLike[str]) -> bytes:

@@ -17,7 +17,9 @@ from fdspec.records.time_step import uniform_step
 NAME: Final = "columns of fdspec"
 TITLE: Final = "Ground motion written by fdspec"
 MAX_HEADER: Final = 400
-KEYS: Final = ("Scale factor", "Time step", "Samples")
+KEYS: Final = ("Source", "Scale factor", "Time step", "Samples")
+"""All but one of them tell the format, too."""
+
 HEADING: Final = "time, s; acceleration, m/s2"
 """Without the brackets of plain columns: when the title is damaged, no unit is told, and the file refused."""
 
