@@ -39,7 +39,9 @@ HOW_TO_READ = (
     click.option(
         "--resample-to", type=float, metavar="S", help="Interpolate samples at unequal times to this step, s."
     ),
-    click.option("--name", metavar="NAME", help="Name of the motion.  [default: the file's, without its ending]"),
+    click.option(
+        "--name", metavar="NAME", help="Name of the motion.  [default: the file's, without its ending]"
+    ),
 )
 
 
@@ -129,7 +131,7 @@ def _matching(given: str) -> list[str]:
     """Return the files that a pattern matches, in order; a name or path as it is."""
     if not has_magic(given) or Path(given).exists():
         return [given]
-    found = sorted(name for name in glob(given, recursive=True) if Path(name).is_file())
+    found = sorted(name for name in glob(given, recursive=True) if Path(name).is_file())  # noqa: PTH207  keeps what was typed
     if not found:
         raise click.UsageError(f"No file matches {given!r}.")
     return found
@@ -143,9 +145,7 @@ def _named(names: list[str], about: AboutFile) -> tuple[str | RecordFile, ...]:
     if not about.given:
         return tuple(names)
     if all(map(is_catalogued, names)):
-        raise click.UsageError(
-            f"{_listed(about)} about a file; the catalogue knows {', '.join(names)}."
-        )
+        raise click.UsageError(f"{_listed(about)} about a file; the catalogue knows {', '.join(names)}.")
     return tuple(name if is_catalogued(name) else RecordFile(name, **about.given) for name in names)
 
 

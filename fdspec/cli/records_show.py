@@ -11,7 +11,6 @@ import click
 
 from fdspec.cli.output import PICTURES, force_option, free, save_picture
 from fdspec.cli.record_options import AboutFile, reading_options, record_about
-
 from fdspec.errors import RecordError
 
 if TYPE_CHECKING:
@@ -43,8 +42,8 @@ def show_record(
 ) -> None:
     """Show what is known of one record, of the catalogue or in a file: origin, numbers, what was done to it.
 
-    Of a file it says too what each column and each statement of the header was taken for, also when the file is
-    refused.
+    Of a file it says too what each column and each statement of the header was taken for, also when the
+    file is refused.
 
     PGV and PGD are integrated from rest without correction; the significant duration is from 5 to 95 % of the
     Arias intensity.

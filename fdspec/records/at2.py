@@ -15,7 +15,8 @@ NAME: Final = "PEER AT2"
 FIRST_VALUES: Final = 5
 
 _QUANTITY: Final = re.compile(
-    r"(ACCELERATION|VELOCITY|DISPLACEMENT) TIME (?:HISTORY|SERIES) IN UNITS OF ([^.\s,]+(?:\.\d+)?)", re.IGNORECASE
+    r"(ACCELERATION|VELOCITY|DISPLACEMENT) TIME (?:HISTORY|SERIES) IN UNITS OF ([^.\s,]+(?:\.\d+)?)",
+    re.IGNORECASE,
 )
 _PUBLISHER: Final = re.compile(r"\b(?:PEER|PACIFIC ENGINEERING|STRONG[- ]MOTION)\b", re.IGNORECASE)
 _FILTER: Final = re.compile(r"FILTER POINTS:\s*(.*\S)", re.IGNORECASE)
@@ -32,7 +33,9 @@ def recognises(text: TextFile) -> bool:
     stated = statements([(4, text.head(4))])
     words = text.head(4).split()
     numbers = len(words) == 2 and sum(_COUNT.fullmatch(word) is not None for word in words) == 1
-    return (numbers and all(parse_number(word) is not None for word in words)) or bool(stated.counts and stated.steps)
+    return (numbers and all(parse_number(word) is not None for word in words)) or bool(
+        stated.counts and stated.steps
+    )
 
 
 def read(text: TextFile) -> tuple[Channel, ...]:

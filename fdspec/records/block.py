@@ -85,13 +85,14 @@ def _refuse_lone_rows(text: TextFile, start: int, first: int, table: Table) -> N
         found = table.dialect.numbers(text.lines[number - 1])
         if found is not None and len(found) == table.width > 1:
             raise text.refusal(
-                number, f"{table.width} numbers as in the rows below line {first}, apart from them: expected words"
+                number,
+                f"{table.width} numbers as in the rows below line {first}, apart from them: expected words",
             )
 
 
 def _numeric_lines(text: TextFile, first: int, dialect: Dialect) -> int:
     """Return how many lines of numbers differ from the rows below them: count and step, no samples."""
-    widths = []
+    widths: list[int] = []
     number = first
     while number <= len(text.lines) and len(widths) < MAX_NUMERIC + 3:
         found = dialect.numbers(text.lines[number - 1])
@@ -146,8 +147,10 @@ def _without_count(table: Table, stated: Statements) -> Table:
     return table.without_first(rows)
 
 
-def _headings(text: TextFile, start: int, first: int, table: Table) -> tuple[list[Heading] | None, int, Table]:
-    """Return the headings above the rows, their line, and the table, whose cells they may show to be halves."""
+def _headings(
+    text: TextFile, start: int, first: int, table: Table
+) -> tuple[list[Heading] | None, int, Table]:
+    """Return the headings above the rows, their line, and the table: cells may be halves."""
     looked = 0
     units: list[str] | None = None
     for number in range(first - 1, max(start, first - 20) - 1, -1):
@@ -162,12 +165,15 @@ def _headings(text: TextFile, start: int, first: int, table: Table) -> tuple[lis
             cells = _heading_cells(line, table.dialect, width)
             if cells is None:
                 continue
+            place = number
             if units is None and width > 1 and is_unit_row(cells) and number > start:
                 above = _heading_cells(text.lines[number - 2], table.dialect, width)
                 if above is not None and not is_unit_row(above):
                     units = [cell.strip().strip("()[]{}<>") for cell in cells]
-                    cells = [f"{name} ({unit})" if unit else name for name, unit in zip(above, units, strict=True)]
-                    number -= 1
+                    cells = [
+                        f"{name} ({unit})" if unit else name for name, unit in zip(above, units, strict=True)
+                    ]
+                    place = number - 1
             headings = row_of(cells)
             said = statements([(number, line)])
             if said.counts or said.steps or is_note(line):
@@ -183,7 +189,7 @@ def _headings(text: TextFile, start: int, first: int, table: Table) -> tuple[lis
             if _is_heading(headings, width, looked == 1):
                 if width < table.width:
                     table = _merged(text, table)
-                return headings, number, table
+                return headings, place, table
     return None, 0, table
 
 
@@ -199,7 +205,9 @@ def _heading_cells(line: str, dialect: Dialect, width: int) -> list[str] | None:
         if leading and not leading[0]:
             splits.insert(0, leading)
     splits += [
-        [cell.strip() for cell in stripped.rstrip(mark).split(mark)] for mark in ("\t", ";", "|", ",") if mark in stripped
+        [cell.strip() for cell in stripped.rstrip(mark).split(mark)]
+        for mark in ("\t", ";", "|", ",")
+        if mark in stripped
     ]
     splits.append(re.split(r"\s{2,20}", stripped))
     splits.append(_grouped(stripped.split()))
@@ -209,7 +217,9 @@ def _heading_cells(line: str, dialect: Dialect, width: int) -> list[str] | None:
             return cells
     for cells in splits:
         if len(cells) == 2 * width and all(unit_of(cell.strip("()[] ")) for cell in cells[1::2]):
-            return [f"{name} ({unit.strip('()[] ')})" for name, unit in zip(cells[0::2], cells[1::2], strict=True)]
+            return [
+                f"{name} ({unit.strip('()[] ')})" for name, unit in zip(cells[0::2], cells[1::2], strict=True)
+            ]
     for cells in splits:
         if len(cells) == width - 1 and width > 1 and all(cells):
             return ["", *cells]
@@ -233,7 +243,9 @@ def _grouped(found: list[str]) -> list[str]:
     cells: list[str] = []
     for k, word in enumerate(found):
         following = found[k + 1] if k + 1 < len(found) else ""
-        bracket = word.startswith(("(", "[", "{", "<")) or (cells and cells[-1].count("(") > cells[-1].count(")"))
+        bracket = word.startswith(("(", "[", "{", "<")) or (
+            cells and cells[-1].count("(") > cells[-1].count(")")
+        )
         joins = word in {"/", "in", "-"} and unit_of(following.strip("()[]")) is not None
         if cells and (bracket or joins or _extends(cells[-1], word)):
             cells[-1] += f" {word}"
@@ -294,9 +306,14 @@ def _is_short(heading: Heading) -> bool:
 
 
 def _may_be_halves(table: Table) -> bool:
-    """Say whether all cells are whole numbers, so that a comma may be the decimal mark as well as part the cells."""
+    """Say whether all cells are whole numbers: their commas may be decimal marks as well."""
     values = table.values
-    return table.width % 2 == 0 and table.ragged is None and not table.short_last and bool((values == values.round()).all())
+    return (
+        table.width % 2 == 0
+        and table.ragged is None
+        and not table.short_last
+        and bool((values == values.round()).all())
+    )
 
 
 def _merged(text: TextFile, table: Table) -> Table:

@@ -20,7 +20,7 @@ def read_blocks(
     title: matches the first line of a block, and `expected` says so in an error; read_block: takes the file
     and the number of that line, returns the channel and the number of the line behind the block.
     """
-    channels = []
+    channels: list[Channel] = []
     number = 1
     while number <= len(text.lines):
         if channels and not text.head(number).strip():

@@ -11,7 +11,7 @@ _LOCATION: Final = re.compile(r"\blocation:", re.IGNORECASE)
 
 
 def channel_name(line: str) -> str:
-    """Return direction and place of 'Chan  6:  Up   (Sta Chn: 11)   Location: Deck Level' with single blanks."""
+    """Return direction and place of 'Chan  6:  Up   (Sta Chn: 11)   Location: Deck', with single blanks."""
     rest = _STATION_CHANNEL.sub(" ", _NUMBER.sub("", line))
     direction, _, place = (" ".join(part.split()) for part in _parted(rest))
     return f"{direction}, {place}" if place else direction

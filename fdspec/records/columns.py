@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 from typing import Final
 
@@ -25,7 +24,7 @@ from fdspec.records.series import (
     unit_of_column,
 )
 from fdspec.records.textfile import TextFile
-from fdspec.records.time_step import PrintedTimes, refuse_backward_steps, unequal, uniform_step
+from fdspec.records.time_step import PrintedTimes, refuse_backward_steps, uniform_step
 from fdspec.records.units import to_si
 
 NO_MOTION: Final = frozenset({words.PERIOD, words.FREQUENCY, words.SPECTRAL})
@@ -55,7 +54,9 @@ def read_columns(text: TextFile, block: Block, given: Given) -> tuple[Channel, .
     for k, name in zip(chosen, names, strict=True):
         unit = unit_of_column(text, block, headings[k] if block.headings else None, given)
         said = f"{headings[k].text!r}: " if headings[k].text else ""
-        text.take(block.heading_line or None, f"column {k + 1}, {said}acceleration in {unit}, channel {name!r}")
+        text.take(
+            block.heading_line or None, f"column {k + 1}, {said}acceleration in {unit}, channel {name!r}"
+        )
         channels.append(
             Channel(
                 name,
@@ -85,10 +86,17 @@ def _time_column(text: TextFile, block: Block, headings: list[Heading], given: G
         first = table.columns[:, said[0]]
         if any((table.columns[:, k] != first).any() for k in said[1:]):
             shown = " and ".join(repr(headings[k].text) for k in said)
-            raise text.refusal(block.heading_line, f"expected one column of times, found {shown}, which differ")
+            raise text.refusal(
+                block.heading_line, f"expected one column of times, found {shown}, which differ"
+            )
     if said:
         return said[0]
-    if headings[0].text == "" and table.width > 1 and not _numbers_rows(text, table, 0) and rises(table.columns[:, 0]):
+    if (
+        headings[0].text == ""
+        and table.width > 1
+        and not _numbers_rows(text, table, 0)
+        and rises(table.columns[:, 0])
+    ):
         return 0  # a row of headings for the accelerations alone
     return None
 
@@ -109,7 +117,8 @@ def _first_column_of_times(text: TextFile, block: Block, given: Given) -> int | 
             step = given.dt or next((step for _, step, _ in block.stated.steps if step is not None), None)
             if step is None:
                 raise text.refusal(
-                    table.first, "the first column, 0, 1, 2, ... without a heading, counts rows or seconds: give dt"
+                    table.first,
+                    "the first column, 0, 1, 2, ... without a heading, counts rows or seconds: give dt",
                 )
             if step != WHOLE_STEP:
                 text.take(None, "column 1 counts the rows")
@@ -117,7 +126,8 @@ def _first_column_of_times(text: TextFile, block: Block, given: Given) -> int | 
     for k in range(table.width):
         if k not in {0, time} and table.rows >= 10 and always_rises(table.columns[:, k]):
             raise text.refusal(
-                table.first, f"column {k + 1} rises like times, but no heading says so: give the columns headings"
+                table.first,
+                f"column {k + 1} rises like times, but no heading says so: give the columns headings",
             )
     return time
 
@@ -181,7 +191,7 @@ def _refuse_spectra(text: TextFile, block: Block, headings: list[Heading], time:
         if not ((values > 0.0).any() and (values < 0.0).any()):
             raise text.refusal(
                 block.heading_line,
-                f"{headings[time or 0].text!r} may be a time or a period, and no value is negative: write time",
+                f"{headings[time or 0].text!r} may be time or period, and no value is negative: write which",
             )
 
 
@@ -239,7 +249,7 @@ def _refuse_whole_steps(text: TextFile, block: Block, times: PrintedTimes) -> No
     if step >= WHOLE_STEP and times.decimals <= 0:
         raise text.refusal(
             block.heading_line or block.table.first,
-            f"the times step by {step:g} and have no unit; s, ms or samples: write it into the heading, or give dt",
+            f"the times step by {step:g} and have no unit (s, ms, samples?): give dt, or write it there",
         )
 
 

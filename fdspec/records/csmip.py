@@ -88,7 +88,10 @@ def _step(text: TextFile, line: int, printed: str) -> float:
     if exact > 0.0 and abs(exact - shown) <= 0.00051:
         return exact
     # Film has its step in other slots; the sentence above the values is believed where a second one agrees.
-    said = next((match for head in text.heads(line - HEADER_LINES, line - 1) if (match := _INTERVALS.search(head))), None)
+    said = next(
+        (match for head in text.heads(line - HEADER_LINES, line - 1) if (match := _INTERVALS.search(head))),
+        None,
+    )
     if shown <= 0.0 or said is None or abs(float(said[1]) - shown) > 1e-9:
         raise text.refusal(
             line, f"expected the step of real-header value {STEP + 1}, {exact:g} s, found {printed}"

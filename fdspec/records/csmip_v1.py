@@ -38,7 +38,8 @@ _EVEN: Final = re.compile(
 
 
 _EVEN_OF_CDMG: Final = re.compile(
-    r"\s*(\d{1,9}) points of accel data equally spaced at\s{0,9}(\d{0,3}\.\d{1,6}) sec\.?\s{1,9}\(units:\s{0,9}([^)]{1,20})\)",
+    r"\s*(\d{1,9}) points of accel data equally spaced at\s{0,9}(\d{0,3}\.\d{1,6}) sec\.?"
+    r"\s{1,9}\(units:\s{0,9}([^)]{1,20})\)",
     re.IGNORECASE,
 )
 A_LINE_OF_CDMG: Final = 8
@@ -139,7 +140,7 @@ def _refuse_other_length(text: TextFile, heading: int, count: int, rate: float, 
 def _pairs(
     text: TextFile, first: int, count: int
 ) -> tuple[NDArray[np.float64], float, NDArray[np.float64] | None, str]:
-    """Read pairs of time and value in g/10: values in m/s2, step; of film, times at unequal steps, and a refusal."""
+    """Read pairs of time and value in g/10: values in m/s2, step, and of film the times and a refusal."""
     if _UNITS.search(text.line(first + 11, "the units")) is None:
         raise text.refusal(first + 11, "expected 'UNITS OF UNCOR ACCEL ARE SEC AND G/10'")
     start = first + HEADER_LINES
@@ -153,5 +154,10 @@ def _pairs(
         raise text.refusal(start, f"{problem}, and times that grow")
     # Times are printed to 1 ms: enough to see a lost or a doubled pair.
     if np.abs(times - times[0] - np.arange(count) * step).max() > min(0.0011, 0.4 * step):
-        return values, step, times, str(text.refusal(start, f"{problem}; to interpolate between them, resample_to"))
+        return (
+            values,
+            step,
+            times,
+            str(text.refusal(start, f"{problem}; to interpolate between them, resample_to")),
+        )
     return values, round(step, 6), None, ""

@@ -40,7 +40,7 @@ class Format:
 
 @dataclass(frozen=True)
 class BinaryFormat:
-    """A binary format: how to tell it from its bytes; `read` takes them, the file's name, and what was given."""
+    """A binary format: how to tell it; `read` takes the bytes, the file's name, and what was given."""
 
     name: str
     recognises: Callable[[bytes], bool]

@@ -31,7 +31,7 @@ def given(
     resample_to: float | None = None,
 ) -> Given:
     """Check the options; an error names the option, its value and what would be right."""
-    if skip is not None and (isinstance(skip, bool) or not isinstance(skip, int) or skip < 0):
+    if skip is not None and (isinstance(skip, bool) or skip < 0):
         raise InvalidInput(f"skip must be a whole number of lines, 0 or more, not {skip!r}")
     if layout is not None and layout not in LAYOUTS:
         raise InvalidInput(f"layout must be 'columns' or 'rows', not {layout!r}")

@@ -1,7 +1,7 @@
 """The heading of a column: which quantity stands below it, in which unit.
 
-A heading is words or a symbol, and perhaps a unit: in brackets, after a comma, a slash, an underscore, "in" or
-a blank. What could be read in two ways, such as V for vertical or velocity, is settled by its neighbours.
+A heading is words or a symbol, and perhaps a unit: in brackets, after a comma, a slash, an underscore, "in"
+or a blank. What could be read in two ways, such as V for vertical or velocity, is settled by its neighbours.
 """
 
 from __future__ import annotations
@@ -26,7 +26,30 @@ _SYMBOL: Final = re.compile(rf"(a|v|d|u|x|y|z|g|w|s)[_ ]?(g|gr|t|{words.AXIS[3:-
 _TWICE_DERIVED: Final = re.compile(r"[uxyzdvw]g?_?(?:g_?)?(?:''|\"|ddot|_?tt|pp)|d2[uxyz]g?/dt2?", re.ASCII)
 _ONCE_DERIVED: Final = re.compile(r"[uxyzdw]g?_?(?:g_?)?(?:'|dot)|d[uxyz]g?/dt", re.ASCII)
 _CLEAR_DIRECTIONS: Final = frozenset(
-    "ns ew ud n-s e-w u-d e z l r h1 h2 up north east vert vertical hne hnn hnz long trans".split()
+    [
+        "ns",
+        "ew",
+        "ud",
+        "n-s",
+        "e-w",
+        "u-d",
+        "e",
+        "z",
+        "l",
+        "r",
+        "h1",
+        "h2",
+        "up",
+        "north",
+        "east",
+        "vert",
+        "vertical",
+        "hne",
+        "hnn",
+        "hnz",
+        "long",
+        "trans",
+    ]
 )
 
 
@@ -137,7 +160,10 @@ def _symbol(name: str) -> tuple[str, str]:
         "i": (words.SAMPLE, ""),
         "j": (words.SAMPLE, ""),
         "tn": (words.PERIOD, ""),
-        "n": (words.SAMPLE if name == "n" else words.DIRECTION, words.DIRECTION if name == "n" else words.SAMPLE),
+        "n": (
+            words.SAMPLE if name == "n" else words.DIRECTION,
+            words.DIRECTION if name == "n" else words.SAMPLE,
+        ),
         "v": (words.VELOCITY, words.DIRECTION),
         "u": (words.DISPLACEMENT, words.DIRECTION),
         "d": (words.DISPLACEMENT, words.DIRECTION),
@@ -203,7 +229,7 @@ def row_of(cells: list[str]) -> list[Heading]:
     headings = [_settled_subscript(heading, by_underscore) for heading in headings]
     accelerates = any(h.quantity == words.ACCELERATION for h in headings)
     clear = any(
-        h.quantity == words.DIRECTION and not h.other or set(words.tokens(h.name)) & _CLEAR_DIRECTIONS
+        (h.quantity == words.DIRECTION and not h.other) or set(words.tokens(h.name)) & _CLEAR_DIRECTIONS
         for h in headings
     )
     axes = sum(h.name.casefold() in {"x", "y", "z"} for h in headings) >= 2
@@ -216,7 +242,11 @@ def row_of(cells: list[str]) -> list[Heading]:
             if (clear or is_axis) and not first_time:
                 new = replace(heading, quantity=words.DIRECTION, other="")
         elif heading.quantity == words.DIRECTION and heading.other == words.SAMPLE:
-            new = replace(heading, other="") if clear or not accelerates else replace(heading, quantity=words.SAMPLE)
+            new = (
+                replace(heading, other="")
+                if clear or not accelerates
+                else replace(heading, quantity=words.SAMPLE)
+            )
         settled.append(new)
     return settled
 

@@ -15,7 +15,8 @@ from fdspec.records.units import to_si
 NAME: Final = "K-NET or KiK-net"
 HEADER_LINES: Final = 17
 KEYS: Final = (
-    "Origin Time", "Depth. (km)", "Mag.", "Station Code", "Sampling Freq(Hz)", "Duration Time(s)", "Scale Factor",
+    "Origin Time", "Depth. (km)", "Mag.", "Station Code", "Sampling Freq(Hz)", "Duration Time(s)",
+    "Scale Factor",
     "Max. Acc. (gal)", "Last Correction",
 )  # fmt: skip
 """Half of them tell the format: a header that lost one must not pass for rows of numbers under words."""

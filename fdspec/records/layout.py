@@ -15,6 +15,7 @@ from fdspec.records.textfile import TextFile
 COLUMNS: Final = "columns"
 ROWS: Final = "rows"
 
+
 def layout_of(text: TextFile, block: Block, given: Given) -> str:
     """Return "columns" or "rows", from the count in the header, the rows themselves, or the caller."""
     table = block.table
@@ -42,8 +43,10 @@ def layout_of(text: TextFile, block: Block, given: Given) -> str:
         )
     if counts:
         line, count, phrase = block.stated.counts[0]
-        found = f"{table.rows} rows with {table.values.size} values"
-        raise text.refusal(table.last, f"expected {count}, as line {line} says ({phrase!r}), but found {found}")
+        there = f"{table.rows} rows with {table.values.size} values"
+        raise text.refusal(
+            table.last, f"expected {count}, as line {line} says ({phrase!r}), but found {there}"
+        )
     if table.short_last:
         return ROWS
     if rises(table.columns[:, 0]):
@@ -54,11 +57,7 @@ def layout_of(text: TextFile, block: Block, given: Given) -> str:
 def counts_rows(table: Table, column: int, decimals: int) -> bool:
     """Say whether a column holds 0, 1, 2, ... or 1, 2, 3, ..., which number rows and are no times."""
     values = table.columns[:, column]
-    return (
-        decimals <= 0
-        and values[0] in {0.0, 1.0}
-        and bool((np.diff(values) == 1.0).all())
-    )
+    return decimals <= 0 and values[0] in {0.0, 1.0} and bool((np.diff(values) == 1.0).all())
 
 
 def _by_smoothness(text: TextFile, table: Table) -> str:

@@ -15,7 +15,7 @@ from fdspec.records.units import to_si
 NAME: Final = "NSMN (Turkey)"
 MAX_HEADER: Final = 60
 KEYS: Final = ("EARTHQUAKE DATE", "STATION ID", "NUMBER OF DATA", "SAMPLING INTERVAL", "RAW PGA VALUES")
-"""Half of them tell the format, too."""
+"""Three of them tell the format, too: without its title, a cut file would pass for rows under words."""
 
 COMPONENTS: Final = ("N-S", "E-W", "U-D")
 
@@ -24,7 +24,7 @@ def recognises(text: TextFile) -> bool:
     """Say whether title or count are the network's: without its title, a cut file would pass for columns."""
     title = text.head(1).strip().upper().startswith("STRONG GROUND MOTION RECORDS OF TURK")
     heads = text.heads(1, MAX_HEADER)
-    return title or sum(any(head.lstrip().startswith(key) for head in heads) for key in KEYS) >= len(KEYS) // 2
+    return title or sum(any(head.lstrip().startswith(key) for head in heads) for key in KEYS) >= 3
 
 
 def read(text: TextFile) -> tuple[Channel, ...]:
@@ -47,9 +47,9 @@ def read(text: TextFile) -> tuple[Channel, ...]:
     rows = len(text.lines) - heading
     values = parse_block(text, heading + 1, len(text.lines))
     if rows != count or values.size != 3 * count:
-        found = f"{rows} rows with {values.size} values"
+        shown = f"{rows} rows with {values.size} values"
         raise text.refusal(
-            len(text.lines), f"expected {count} rows of 3, as NUMBER OF DATA says, found {found}"
+            len(text.lines), f"expected {count} rows of 3, as NUMBER OF DATA says, found {shown}"
         )
     event = keys.get("EARTHQUAKE DATE", (1, ""))[1]
     station = keys.get("STATION ID", (1, ""))[1]

@@ -41,7 +41,9 @@ def parse_words(text: TextFile, number: int) -> list[float]:
 def parse_block(text: TextFile, first: int, last: int) -> NDArray[np.float64]:
     """Return all values of lines `first` to `last` (counted from 1, both included)."""
     last = min(last, len(text.lines))
-    parts = [_parse_lines(text, start, min(start + CHUNK - 1, last)) for start in range(first, last + 1, CHUNK)]
+    parts = [
+        _parse_lines(text, start, min(start + CHUNK - 1, last)) for start in range(first, last + 1, CHUNK)
+    ]
     return np.concatenate(parts) if parts else np.empty(0)
 
 

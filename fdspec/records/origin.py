@@ -9,10 +9,12 @@ from fdspec.records.block import Block
 from fdspec.records.textfile import TextFile
 
 _STATION: Final = re.compile(
-    r"\b(?:station|site|stazione|estacion)\b(?:\s(?:name|code|id))?(?:\s/\s\w{1,10})?\s{0,20}[:=]\s{0,20}(\S.{0,80})", re.IGNORECASE
+    r"\b(?:station|site|stazione|estacion)\b(?:\s(?:name|code|id))?(?:\s/\s\w{1,10})?\s{0,20}[:=]\s{0,20}(\S.{0,80})",
+    re.IGNORECASE,
 )
 _EVENT: Final = re.compile(
-    r"\b(?:event(?:\s?name|\sdate)?(?:\s&\s?time)?|earthquake(?:\sname)?)\s{0,20}[:=]\s{0,20}(\S.{0,80})", re.IGNORECASE
+    r"\b(?:event(?:\s?name|\sdate)?(?:\s&\s?time)?|earthquake(?:\sname)?)\s{0,20}[:=]\s{0,20}(\S.{0,80})",
+    re.IGNORECASE,
 )
 _COMPONENT: Final = re.compile(
     r"\b(?:comp(?:onent)?\.?|orientation|direction)\s{0,20}(?:[:=]|\s)\s{0,20}([\w-]{1,12}(?:\s(?:deg(?:rees)?))?)\s*$",
@@ -23,8 +25,10 @@ _COMPONENT: Final = re.compile(
 def origin_of(text: TextFile, block: Block) -> tuple[str, str, str]:
     """Return event, station and component; the first line is the event's unless another says so."""
     last = block.heading_line - 1 if block.headings else block.table.first - 1
-    lines = [" ".join(text.lines[number - 1][:300].split()) for number in range(block.start, max(last, 0) + 1)]
-    lines = [line.strip(" #%!*\"") for line in lines]
+    lines = [
+        " ".join(text.lines[number - 1][:300].split()) for number in range(block.start, max(last, 0) + 1)
+    ]
+    lines = [line.strip(' #%!*"') for line in lines]
     lines = [line for line in lines if any(char.isalpha() for char in line)]
     event = _first(_EVENT, lines)
     station = _first(_STATION, lines)

@@ -19,7 +19,6 @@ from fdspec.records.given import Given, given
 from fdspec.records.resampling import at_equal_steps
 from fdspec.records.textfile import TextFile, decode, read_bytes
 
-
 LIKE_G: Final = (0.02, 0.8)
 """Peaks of strong motions in g; in m/s2 they would hardly be felt."""
 
@@ -29,7 +28,7 @@ MANY: Final = 100
 
 @dataclass(frozen=True)
 class Reading:
-    """A file that was read: its format, what each line and column was taken for, and its motions by channel."""
+    """A file that was read: format, what each line and column was taken for, motions by channel."""
 
     format_name: str
     taken: tuple[str, ...]
@@ -56,18 +55,18 @@ def read_record(
     channel : str, optional
         Which channel, when the file has several; without it such a file is refused and the text names them.
     units : str, optional
-        Unit of acceleration of a file that does not say it: g, m/s2, cm/s2, mm/s2, gal, mgal, mg, %g, ft/s2 or
-        in/s2, in any spelling.
+        Unit of acceleration of a file that does not say it: g, m/s2, cm/s2, mm/s2, gal, mgal, mg, %g, ft/s2
+        or in/s2, in any spelling.
     dt : float, optional
         Time step of a file that does not say it, s.
     name : str, optional
         Name of the motion, else the file's name without ending.
     skip : int, optional
-        Lines above the first row of numbers, for a header that misleads; what they state is not believed then,
-        but headings of columns are.
+        Lines above the first row of numbers, for a header that misleads; what they state is not believed
+        then, but headings of columns are.
     layout : {"columns", "rows"}, optional
-        Whether several numbers a row are as many columns, or one series that runs on along the rows, for a file
-        that does not show it.
+        Whether several numbers a row are as many columns, or one series that runs on along the rows, for a
+        file that does not show it.
     resample_to : float, optional
         Step, s, to which samples at unequal times are interpolated, on the lines between them.
 
@@ -89,7 +88,9 @@ def read_record(
     options = given(units, dt, skip, layout, resample_to)
     format_name, _, channels = _load(path, options)
     chosen = _choose(file, channels, channel)
-    motion = _motion(file, format_name, channels, at_equal_steps(file.name, chosen, options.resample_to), name)
+    motion = _motion(
+        file, format_name, channels, at_equal_steps(file.name, chosen, options.resample_to), name
+    )
     if options.units == "m/s2" and motion.n >= MANY and LIKE_G[0] < motion.pga < LIKE_G[1]:
         warnings.warn(
             f"{file.name}: units are given as m/s2 and the peak is {motion.pga:.4g}: the numbers look like g",
@@ -126,8 +127,8 @@ def read_file(
 ) -> Reading:
     """Read every channel of a file, and say what each line and column was taken for.
 
-    Arguments and errors are those of `read_record`. The notes of an error (PEP 678) say what was taken for what
-    before it.
+    Arguments and errors are those of `read_record`. The notes of an error (PEP 678) say what was taken for
+    what before it.
     """
     file = Path(path)
     options = given(units, dt, skip, layout, resample_to)
@@ -174,7 +175,7 @@ def _read_text(text: TextFile, options: Given) -> tuple[str, tuple[Channel, ...]
     if options.skip is not None or rows_of_text.recognises(text):
         text.take(None, f"format: {rows_of_text.NAME}")
         return rows_of_text.NAME, rows_of_text.read(text, options)
-    names = ", ".join(known.name for known in (*FORMATS, *BINARY_FORMATS))
+    names = ", ".join([known.name for known in FORMATS] + [known.name for known in BINARY_FORMATS])
     found = text.head(1).strip()[:60]
     raise text.refusal(
         1, f"the format is not recognised: expected {names} or rows of numbers, found {found!r}"

@@ -33,7 +33,9 @@ def at_equal_steps(name: str, channel: Channel, step: float | None) -> Channel:
     times = channel.times - channel.times[0]
     count = int(np.floor(times[-1] / step * (1.0 + 1e-12))) + 1
     if not 2 <= count <= MAX_SAMPLES:
-        raise RecordError(f"{name}: resample_to must leave 2 to {MAX_SAMPLES} samples of {times[-1]:g} s, not {count}")
+        raise RecordError(
+            f"{name}: resample_to must leave 2 to {MAX_SAMPLES} samples of {times[-1]:g} s, not {count}"
+        )
     samples = np.interp(np.arange(count) * step, times, channel.acceleration)
     steps = np.diff(channel.times)
     peaks = float(np.abs(channel.acceleration).max()), float(np.abs(samples).max())

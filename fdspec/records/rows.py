@@ -23,10 +23,10 @@ MAX_BETWEEN: Final = 1000
 """Lines without numbers between two rows; more end the rows."""
 
 RISING: Final = 0.8
-"""Share of steps upward from which a first column is taken for times, if damaged ones; half of a motion's rise."""
+"""Share of steps upward that makes a first column times, if damaged ones; half of a motion's rise."""
 
 CLEARLY: Final = 0.7
-"""Neighbours along a series differ less than values a row apart, by this factor at least, or nothing is concluded."""
+"""Neighbours in a series differ less than values a row apart, by this factor, or nothing is concluded."""
 
 _SAMPLE: Final = 40
 """Lines looked at, in each of three places, to tell what parts the cells."""
@@ -56,7 +56,7 @@ class Dialect:
         return [cell.replace(",", ".") for cell in cells] if self.comma else cells
 
     def raw_cells(self, line: str) -> list[str]:
-        """Return the cells of a line as they are written, without quotes; empty ones at the end do not count."""
+        """Return the cells of a line as written, without quotes; empty ones at the end do not count."""
         if self.separator is None:
             return line.replace('"', " ").split()
         if '"' in line:
@@ -111,8 +111,8 @@ _DIALECTS: Final = tuple(
 class Table:
     """Rows of numbers: `values` run along the rows, `width` a row, the last row may be shorter.
 
-    `ragged` is the first line with another number of cells, None when there is none. `remarks` are lines between
-    the rows, each with its number; `skipped` the numbers of all lines between that are no rows.
+    `ragged` is the first line with another number of cells, None when there is none. `remarks` are lines
+    between the rows, each with its number; `skipped` the numbers of all lines between that are no rows.
     """
 
     dialect: Dialect
@@ -215,7 +215,8 @@ def _settle_commas(text: TextFile, lines: list[str]) -> Dialect:
     if any(len(line.split()) > 1 for line in lines):
         return Dialect(None, comma=True)
     raise text.refusal(
-        None, f"{lines[0].strip()!r} may be two whole numbers or one with a decimal comma: write decimal points"
+        None,
+        f"{lines[0].strip()!r} may be two whole numbers or one with a decimal comma: write decimal points",
     )
 
 
@@ -243,7 +244,9 @@ def is_remark(line: str) -> bool:
     """Say whether a line is marked as a comment or is a rule; what a # stands before is no row."""
     stripped = line.strip()
     if stripped.startswith("*"):  # a run of stars may be a number that overflowed its column
-        return not any(char.isdigit() for char in stripped) and (len(stripped) > 20 or stripped.strip("* ") != "")
+        return not any(char.isdigit() for char in stripped) and (
+            len(stripped) > 20 or stripped.strip("* ") != ""
+        )
     return stripped.startswith(_MARKS)
 
 
@@ -253,7 +256,7 @@ def is_words(line: str) -> bool:
 
 
 def table_from(text: TextFile, first: int, dialect: Dialect) -> tuple[Table, int]:
-    """Read rows from line `first` on; return them and the line behind, where words stop them or the file ends."""
+    """Read rows from line `first` on, until words or the end; return them and the line behind."""
     values = array("d")
     width = 0
     lengths: Counter[int] = Counter()
@@ -313,7 +316,17 @@ def table_from(text: TextFile, first: int, dialect: Dialect) -> tuple[Table, int
         if usual == width and len(odd_rows) == 1 and odd_rows[0][0] == last_row and odd_rows[0][1] < width:
             short_last, odd = True, None
     table = Table(
-        dialect, first, last_row, usual, rows, np.frombuffer(values), odd, short_last, tuple(remarks), tuple(skipped), blank
+        dialect,
+        first,
+        last_row,
+        usual,
+        rows,
+        np.frombuffer(values),
+        odd,
+        short_last,
+        tuple(remarks),
+        tuple(skipped),
+        blank,
     )
     if pending and stopped > len(text.lines):
         stopped = pending[0]
@@ -384,7 +397,9 @@ def rises(column: NDArray[np.float64]) -> bool:
     """Say whether a column goes upward as times do."""
     steps = np.diff(column)
     half = column.size // 2
-    later = column[half:] > column[: column.size - half]  # a sawtooth goes upward most of the time, and nowhere
+    later = (
+        column[half:] > column[: column.size - half]
+    )  # a sawtooth goes upward most of the time, and nowhere
     upward = np.count_nonzero(steps > 0.0)
     level = np.count_nonzero(steps == 0.0)
     return bool(

@@ -22,8 +22,7 @@ def read_running(text: TextFile, block: Block, given: Given) -> Channel:
         raise text.refusal(None, "the file does not say the time step: give dt, in s")
     text.take(
         table.first,
-        f"to line {table.last}: {table.values.size} values of acceleration in {unit}, {table.width} a row, in "
-        f"{table.dialect.said}",
+        f"to line {table.last}: {table.values.size} values of acceleration in {unit}, {table.width} a row",
     )
     event, station, component = origin_of(text, block)
     return Channel(

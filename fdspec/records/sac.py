@@ -80,7 +80,9 @@ def read(content: bytes, name: str, given: Given) -> tuple[Channel, ...]:
     # The step is kept in single precision; its shortest decimal is what was meant.
     dt = float(str(np.float32(struct.unpack_from(f"{order}f", content, 0)[0])))
     if values.size != count or not 0.0 < dt < np.inf:
-        raise RecordError(f"{name}: expected {count} samples with a time step, found {values.size} and {dt!r} s")
+        raise RecordError(
+            f"{name}: expected {count} samples with a time step, found {values.size} and {dt!r} s"
+        )
     return (
         Channel(
             name=trace.id,

@@ -1,4 +1,4 @@
-"""Unit, step and quantity of a block: what the headings, the header and the caller say, and that they agree."""
+"""Unit, step and quantity of a block: what headings, header and caller say, and that they agree."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ GIVE_UNITS: Final = f"give units, one of {', '.join(KNOWN)}"
 
 
 def refuse_other_quantities(text: TextFile, block: Block) -> None:
-    """Refuse rows that the words above them say to be no acceleration over time, where no headings say more."""
+    """Refuse rows without headings when the words above say that they are no acceleration over time."""
     said = block.stated.mentioned
     others = [q for q in (words.SPECTRAL, words.VELOCITY, words.DISPLACEMENT) if q in said]
     measured = {unit.quantity for _, unit, _ in block.stated.units}
@@ -47,19 +47,25 @@ def unit_of_column(text: TextFile, block: Block, heading: Heading | None, given:
         told = heading.unit_text or heading.text
         if heading.unit_text:
             raise text.refusal(
-                block.heading_line, f"the heading {heading.text!r} says {told!r}, which is no unit of acceleration"
+                block.heading_line,
+                f"the heading {heading.text!r} says {told!r}, which is no unit of acceleration",
             )
         if given.units is None:
             raise text.refusal(
-                block.heading_line, f"the heading {heading.text!r} names a unit of another quantity: {GIVE_UNITS}"
+                block.heading_line,
+                f"the heading {heading.text!r} names a unit of another quantity: {GIVE_UNITS}",
             )
-        text.take(block.heading_line, f"{heading.text!r}: its unit is overruled by the one given, {given.units}")
+        text.take(
+            block.heading_line, f"{heading.text!r}: its unit is overruled by the one given, {given.units}"
+        )
         return given.units
     said = [entry for entry in block.stated.units if entry[1].quantity == words.ACCELERATION]
     bracketed = block.stated.bracketed if len(block.header) <= SHORT_HEADER else []
     stated = {unit.name: (line, phrase) for line, unit, phrase in said or bracketed}
     own = {
-        h.unit.name for h in block.headings or () if h.unit is not None and h.unit.quantity == words.ACCELERATION
+        h.unit.name
+        for h in block.headings or ()
+        if h.unit is not None and h.unit.quantity == words.ACCELERATION
     }
     if not stated and len(own) == 1:
         return _agreed(text, block.heading_line, "a heading beside it", own.pop(), given)
@@ -67,7 +73,9 @@ def unit_of_column(text: TextFile, block: Block, heading: Heading | None, given:
         if given.units in stated:
             return str(given.units)
         says = " and ".join(f"{name} (line {line})" for name, (line, _) in sorted(stated.items()))
-        raise text.refusal(None, f"the file contradicts itself on the unit of acceleration, {says}: {GIVE_UNITS}")
+        raise text.refusal(
+            None, f"the file contradicts itself on the unit of acceleration, {says}: {GIVE_UNITS}"
+        )
     if stated:
         ((name, (line, phrase)),) = stated.items()
         text.take(line, f"{phrase!r}: unit of acceleration {name}")
@@ -99,11 +107,14 @@ def stated_step(text: TextFile, block: Block, given: Given) -> float | None:
     steps = [(line, step, phrase) for line, step, phrase in block.stated.steps if step is not None]
     if not steps:
         return given.dt
-    line, step, phrase = min(steps, key=lambda entry: len(repr(entry[1])))  # the one with fewest digits is no quotient
+    line, step, phrase = min(
+        steps, key=lambda entry: len(repr(entry[1]))
+    )  # the one with fewest digits is no quotient
     for other_line, other, other_phrase in steps:
         if abs(other - step) > STEP_TOLERANCE * step:
             raise text.refusal(
-                other_line, f"{other_phrase!r} contradicts line {line}, {phrase!r}: {other:.6g} s and {step:.6g} s"
+                other_line,
+                f"{other_phrase!r} contradicts line {line}, {phrase!r}: {other:.6g} s and {step:.6g} s",
             )
     text.take(line, f"{phrase!r}: time step {step:.10g} s")
     if given.dt is not None and abs(given.dt - step) > 1e-6 * step:

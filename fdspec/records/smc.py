@@ -62,7 +62,9 @@ def read(text: TextFile) -> tuple[Channel, ...]:
         raise text.refusal(TEXT_LINES + 2, f"expected the number of comments as integer 16, found {comments}")
     start = first + comments
     if title[1] == "0" and not any(_ACCELERATION.search(line) for line in text.heads(first, start - 1)):
-        raise text.refusal(1, "the title says UNKNOWN, and no comment that this is an acceleration time history")
+        raise text.refusal(
+            1, "the title says UNKNOWN, and no comment that this is an acceleration time history"
+        )
     a_line, width = A_LINE, WIDTH
     if start - 1 + -(-count // LONG_A_LINE) == len(text.lines) != start - 1 + -(-count // A_LINE):
         a_line, width = LONG_A_LINE, LONG_WIDTH

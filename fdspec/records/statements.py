@@ -1,8 +1,8 @@
 """What the lines above the values say in words: how many values, at which step, in which unit, of what.
 
-The order of the words and their spelling vary from hand to hand; each statement is found by itself. Notes about
-peaks, ranges and filters are no statements about the values. Every pattern works on the first 400 characters of
-a line and has bounded repetitions only.
+The order of the words and their spelling vary from hand to hand; each statement is found by itself. Notes
+about peaks, ranges and filters are no statements about the values. Every pattern works on the first 400
+characters of a line and has bounded repetitions only.
 """
 
 from __future__ import annotations
@@ -37,14 +37,17 @@ _COUNT_KEY: Final = (
 )
 _BARE_COUNT_KEY: Final = rf"(?:{_NOUN}|n)"
 _STEP_KEY: Final = (
-    r"(?:dt|delta[ _]?t|δt|dtime|(?:time|sampling|sample|data|digiti[sz]ing)[ _-]?(?:step|increment|interval|spacing|delta|period)s?"
+    r"(?:dt|delta[ _]?t|δt|dtime|(?:time|sampling|sample|data|digiti[sz]ing)[ _-]?(?:step|increment|"
+    r"interval|spacing|delta|period)s?"
     r"(?: s| sec)?|time between samples|"
-    r"(?:equally|evenly|uniformly)[ -]?spaced(?:\s(?:intervals?|points|at))?|equal(?:ly)?[ -]?(?:spacing|intervals?|(?:time )?steps?)|"
-    r"zeitschritt(?:weite)?|abtastintervall|zeitinkrement|zeitintervall|pas(?: de temps| d'echantillonnage)?|paso(?: de tiempo)?|"
+    r"(?:equally|evenly|uniformly)[ -]?spaced(?:\s(?:intervals?|points|at))?|"
+    r"equal(?:ly)?[ -]?(?:spacing|intervals?|(?:time )?steps?)|"
+    r"zeitschritt(?:weite)?|abtastintervall|zeitinkrement|zeitintervall|pas(?: de temps|"
+    r" d'echantillonnage)?|paso(?: de tiempo)?|"
     r"intervalo(?: de (?:muestreo|tiempo|amostragem))?|incremento(?: de tiempo| temporale)?|"
     r"passo(?: temporale| di campionamento| de tempo)?|intervallo(?: di campionamento| di tempo)?|"
-    r"zaman (?:adimi|araligi)|ornekleme araligi|шаг(?: дискретизации| по времени)?|采样间隔|时间间隔|时间步长|采样周期|"
-    r"サンプリング間隔|時間間隔|時間刻み)"
+    r"zaman (?:adimi|araligi)|ornekleme araligi|шаг(?: дискретизации| по времени)?|"
+    r"采样间隔|时间间隔|时间步长|采样周期|サンプリング間隔|時間間隔|時間刻み)"
 )
 _RATE_KEY: Final = (
     r"(?:sampl(?:e|ing)[ _-]?(?:rate|freq(?:uency)?|frequenz)(?: hz)?|data[ _-]rate|sps|fs|samprate|"
@@ -57,8 +60,12 @@ _NOT_A_COUNT: Final = re.compile(
     r"(?:skipped|missing|lost|bad|dropped|clipped|spurious|interpolated|leading|trailing|first|last|pre-?event|"
     r"padded|each|every|db|period|frequency)\s{0,3}$"
 )
-_KEY_COUNT: Final = re.compile(rf"(?<![\w]){_COUNT_KEY}{_OPTIONAL_UNIT}{_IS}(?P<n>\d{{1,12}})(?!\d|[\w.,]\d|[a-z])")
-_BARE_COUNT: Final = re.compile(rf"(?<![\w]){_BARE_COUNT_KEY}\s{{0,3}}[:=]\s{{0,12}}(?P<n>\d{{1,12}})(?!\.\d|\w)")
+_KEY_COUNT: Final = re.compile(
+    rf"(?<![\w]){_COUNT_KEY}{_OPTIONAL_UNIT}{_IS}(?P<n>\d{{1,12}})(?!\d|[\w.,]\d|[a-z])"
+)
+_BARE_COUNT: Final = re.compile(
+    rf"(?<![\w]){_BARE_COUNT_KEY}\s{{0,3}}[:=]\s{{0,12}}(?P<n>\d{{1,12}})(?!\.\d|\w)"
+)
 _COUNT_NOUN: Final = re.compile(
     r"(?<![\w.+-])(?P<n>\d{1,12})\s{1,3}(?:(?:data|accelerogram|acceleration|accel|acc|record|time|discrete|digiti[sz]ed|"
     rf"equally[ -]spaced|uncorrected|corrected)\s){{0,2}}{_NOUN}\b"
@@ -84,7 +91,8 @@ _UNIT_WORD: Final = re.compile(
 )
 _UNIT_FILLER: Final = re.compile(
     r"(?:\s|:|=|\(|\[|\bof\b|\bis\b|\bare\b|\bin\b(?=\s)|\bde\b|\bdi\b|\bfor\b|\bthe\b|\bdata\b|\bdatos\b|\blos\b|\bla\b|\bdei\b|"
-    r"\bdati\b|\buncor\b|\bcorr?\b|\bground\b|\bmotion\b|\bvalues?\b|\baccel\w*|\bacc\b|\baceler\w*|\bbeschl\w*|\bsec and\b){0,8}"
+    r"\bdati\b|\buncor\b|\bcorr?\b|\bground\b|\bmotion\b|\bvalues?\b|\baccel\w*|\bacc\b|\baceler\w*|"
+    r"\bbeschl\w*|\bsec and\b){0,8}"
 )
 _ACCELERATION: Final = re.compile(
     r"\b(?:acc?ell?\w{0,14}|acc|acceler\w*|aceler\w*|beschleunigung\w*|ivme\w*|ускорени\w*)\b|加速度"
@@ -97,8 +105,12 @@ _A_NOTE: Final = re.compile(
 )
 _BLANKS: Final = re.compile(r"\s{3,}")
 _BRACKETED: Final = re.compile(r"[\[(]\s{0,3}([^()\[\]]{1,20})[\])]")
-_INSTRUMENT: Final = re.compile(r"(?:accelero|acelero)(?:met|graph|graf)\w*|accelerometr\w*|velocimet\w*|速度計|加速度計")
-_OF_FILTERS: Final = re.compile(r"\b(?:filter|cut-?off|cut|corner|poles?|order|nyquist|pass|bandpass|magnitude)\b")
+_INSTRUMENT: Final = re.compile(
+    r"(?:accelero|acelero)(?:met|graph|graf)\w*|accelerometr\w*|velocimet\w*|速度計|加速度計"
+)
+_OF_FILTERS: Final = re.compile(
+    r"\b(?:filter|cut-?off|cut|corner|poles?|order|nyquist|pass|bandpass|magnitude)\b"
+)
 _CLAUSE: Final = re.compile(r"[;,]\s|\s{3,}")
 _COMPONENTS: Final = re.compile(
     r"\b(?:components?|channels?|directions?|orientation|komponenten?|richtungen?|componentes?|canales|composantes?|"
@@ -135,11 +147,19 @@ def statements(lines: Iterable[tuple[int, str]], *, decimal_comma: bool = False)
 def is_note(line: str) -> bool:
     """Say whether a line is about a peak, a range or a filter, or says that something has a value."""
     text = plain(line[:MAX_STATEMENT])
-    return _A_NOTE.search(text) is not None or _OF_FILTERS.search(text) is not None or re.search(r"\bunits? (?:of|are|is)\b", text) is not None
+    return (
+        _A_NOTE.search(text) is not None
+        or _OF_FILTERS.search(text) is not None
+        or re.search(r"\bunits? (?:of|are|is)\b", text) is not None
+    )
 
 
 def _prepared(line: str, decimal_comma: bool) -> str:
-    text = plain(_BLANKS.sub("   ", line[: 4 * MAX_STATEMENT])[:MAX_STATEMENT]).replace("_", " ").replace("**", "^")
+    text = (
+        plain(_BLANKS.sub("   ", line[: 4 * MAX_STATEMENT])[:MAX_STATEMENT])
+        .replace("_", " ")
+        .replace("**", "^")
+    )
     text = text.replace("\u2206", "δ")
     if decimal_comma:
         text = re.sub(r"(?<=\d),(?=\d)", ".", text)
@@ -193,7 +213,9 @@ def _read_steps(found: Statements, number: int, text: str) -> None:
     for match in _KEY_STEP.finditer(text):
         value = _positive(match["n"])
         unit = unit_of(match["key_unit"] or "") or unit_of(match["unit"] or "")
-        if unit is None and re.search(r"[ _]s(?:ec)?$", match[0][: match.start("n") - match.start()].rstrip(" :=")):
+        if unit is None and re.search(
+            r"[ _]s(?:ec)?$", match[0][: match.start("n") - match.start()].rstrip(" :=")
+        ):
             unit = unit_of("s")
         if unit is not None and unit.quantity == vocabulary.FREQUENCY:
             continue

@@ -103,7 +103,10 @@ def _later_channels(text: TextFile, block: Block, given: Given) -> tuple[Channel
 
 
 def _trailer(text: TextFile, behind: int) -> tuple[str, ...]:
-    lines = [(n, " ".join(text.lines[n - 1][:200].split())) for n in range(behind, min(len(text.lines), behind + 50) + 1)]
+    lines = [
+        (n, " ".join(text.lines[n - 1][:200].split()))
+        for n in range(behind, min(len(text.lines), behind + 50) + 1)
+    ]
     lines = [(number, line) for number, line in lines if line]
     if not lines:
         return ()

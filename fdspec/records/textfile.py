@@ -22,7 +22,7 @@ _OF_NUMBERS: Final = frozenset("0123456789+-.,;|EeDd \t'\"")
 
 
 class Lines(Sequence[str]):
-    """The lines of a text, cut out of it when they are asked for: a str for each would take ten times its room."""
+    """The lines of a text, cut out of it on demand: a str for each would take ten times its room."""
 
     def __init__(self, text: str) -> None:
         self._text = text
@@ -80,7 +80,7 @@ class TextFile:
         return self.head(number)
 
     def head(self, number: int) -> str:
-        """Return what a search looks at in line `number`: no heading is longer, and no search then takes long."""
+        """Return what a search looks at in line `number`: no heading is longer, and no search takes long."""
         return self.lines[number - 1][:MAX_HEAD]
 
     def heads(self, first: int, last: int) -> list[str]:

@@ -26,8 +26,8 @@ _EXACT: Final = 2.0**52
 class PrintedTimes:
     """Times as a file prints them, and how exactly: with up to so many decimals or significant digits.
 
-    A printer uses a fixed number of either and may drop zeros at the end, so that one time alone does not show
-    its precision: the most among all times counts.
+    A printer uses a fixed number of either and may drop zeros at the end, so that one time alone does not
+    show its precision: the most among all times counts.
     """
 
     values: NDArray[np.float64]
@@ -76,8 +76,8 @@ def uniform_step(
 
     Times that step equally as printed are taken as they are. Others may be rounded: each may be off by half a
     unit of its last digit, no more; the step is then the shortest decimal that the first and the last time
-    allow, so that 0.00976 comes back as 0.00976. A `given` step, s, is checked against the times and returned.
-    `unit` is that of the times, s.
+    allow, so that 0.00976 comes back as 0.00976. A `given` step, s, is checked against the times and
+    returned. `unit` is that of the times, s.
     """
     values = times.values
     refuse_backward_steps(text, times)

@@ -67,7 +67,9 @@ def read(text: TextFile) -> tuple[Channel, ...]:
     processing: tuple[str, ...] = ()
     if rows == count + 1:
         _refuse_doubled_row(text, keys, table, unit, steps[0], count)
-        processing = (f"on reading, {rows} samples were found where the header counts {count:g}: all were taken",)
+        processing = (
+            f"on reading, {rows} samples were found where the header counts {count:g}: all were taken",
+        )
     text.take(line, f"{spelling}: acceleration in {unit}")
     text.take(keys[STEP][0], f"time step {steps[0]:.10g} s")
     text.take(keys[COUNT][0], f"{count:g} rows of {len(names)} channels: {', '.join(names)}")
@@ -77,7 +79,9 @@ def read(text: TextFile) -> tuple[Channel, ...]:
             acceleration=to_si(np.ascontiguousarray(column), unit),
             dt=steps[0],
             units=unit,
-            event=" ".join(filter(None, _of(keys, "fecha del sismo gmt", "hora epicentro gmt", "magnitud es"))),
+            event=" ".join(
+                filter(None, _of(keys, "fecha del sismo gmt", "hora epicentro gmt", "magnitud es"))
+            ),
             station=_of(keys, "clave de la estacion")[0],
             component=name,
             processing=processing,
@@ -87,7 +91,12 @@ def read(text: TextFile) -> tuple[Channel, ...]:
 
 
 def _refuse_doubled_row(
-    text: TextFile, keys: dict[str, tuple[int, str]], table: NDArray[np.float64], unit: str, dt: float, count: float
+    text: TextFile,
+    keys: dict[str, tuple[int, str]],
+    table: NDArray[np.float64],
+    unit: str,
+    dt: float,
+    count: float,
 ) -> None:
     """Refuse a row more than the count, unless length and peaks show that the header counts the steps.
 

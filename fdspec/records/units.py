@@ -22,10 +22,12 @@ from fdspec.units import G
 MAX_SPELLING: Final = 60
 
 _LENGTHS: Final = {
-    "m": Fraction(1), "meter": Fraction(1), "meters": Fraction(1), "metre": Fraction(1), "metres": Fraction(1),
+    "m": Fraction(1), "meter": Fraction(1), "meters": Fraction(1), "metre": Fraction(1),
+    "metres": Fraction(1),
     "metro": Fraction(1), "metros": Fraction(1), "м": Fraction(1), "mt": Fraction(1),
     "cm": Fraction(1, 100), "centimeter": Fraction(1, 100), "centimeters": Fraction(1, 100),
-    "centimetre": Fraction(1, 100), "centimetres": Fraction(1, 100), "см": Fraction(1, 100), "cms": Fraction(1, 100),
+    "centimetre": Fraction(1, 100), "centimetres": Fraction(1, 100), "см": Fraction(1, 100),
+    "cms": Fraction(1, 100),
     "mm": Fraction(1, 1000), "millimeter": Fraction(1, 1000), "millimeters": Fraction(1, 1000),
     "millimetre": Fraction(1, 1000), "millimetres": Fraction(1, 1000), "мм": Fraction(1, 1000),
     "km": Fraction(1000), "nm": Fraction(1, 10**9), "um": Fraction(1, 10**6), "μm": Fraction(1, 10**6),
@@ -34,7 +36,8 @@ _LENGTHS: Final = {
 }  # fmt: skip
 _TIMES: Final = {
     **dict.fromkeys(
-        ("s", "sec", "secs", "second", "seconds", "sek", "sekunde", "sekunden", "seg", "segs", "segundo", "segundos",
+        ("s", "sec", "secs", "second", "seconds", "sek", "sekunde", "sekunden", "seg", "segs", "segundo",
+        "segundos",
          "secondo", "secondi", "seconde", "secondes", "sn", "saniye", "с", "сек", "секунд", "秒", "초"),
         Fraction(1),
     ),
@@ -42,10 +45,12 @@ _TIMES: Final = {
         ("ms", "msec", "msecs", "millisecond", "milliseconds", "millisec", "мс", "мсек", "毫秒", "ミリ秒"),
         Fraction(1, 1000),
     ),
-    **dict.fromkeys(("us", "μs", "usec", "μsec", "microsecond", "microseconds", "мкс", "微秒"), Fraction(1, 10**6)),
+    **dict.fromkeys(("us", "μs", "usec", "μsec", "microsecond", "microseconds", "мкс", "微秒"), Fraction(1,
+    10**6)),
     **dict.fromkeys(("nsec", "nanosecond", "nanoseconds"), Fraction(1, 10**9)),
     **dict.fromkeys(
-        ("min", "mins", "minute", "minutes", "minuten", "minuto", "minutos", "minuti", "dakika", "dk", "мин", "分", "分钟"),
+        ("min", "mins", "minute", "minutes", "minuten", "minuto", "minutos", "minuti", "dakika", "dk",
+        "мин", "分", "分钟"),
         Fraction(60),
     ),
     **dict.fromkeys(("hr", "hrs", "hour", "hours", "stunden"), Fraction(3600)),
@@ -58,7 +63,8 @@ _GAL: Final = {"gal": Fraction(1, 100), "gals": Fraction(1, 100), "galileo": Fra
                "伽": Fraction(1, 100), "kine": Fraction(0)}  # fmt: skip
 _STANDARD_GRAVITY: Final = Fraction("9.80665")
 _G: Final = {
-    **dict.fromkeys(("g", "gs", "gn", "g0", "grav", "gravity", "gravities", "gee", "gees", "重力加速度"), Fraction(1)),
+    **dict.fromkeys(("g", "gs", "gn", "g0", "grav", "gravity", "gravities", "gee", "gees", "重力加速度"),
+    Fraction(1)),
     **dict.fromkeys(("mg", "mgs", "millig", "milligs"), Fraction(1, 1000)),
     **dict.fromkeys(("ug", "μg", "microg"), Fraction(1, 10**6)),
 }  # fmt: skip
@@ -89,7 +95,7 @@ _DIMENSIONS: Final = MappingProxyType(
         (0, -1): vocabulary.FREQUENCY,
     }
 )
-_TOKEN: Final = re.compile(r"\s*([^\W\d_]+0?|\^|\*|/|\(|\)|-?\d+|%|\.)")
+_WORD: Final = re.compile(r"\s*([^\W\d_]+0?|\^|\*|/|\(|\)|-?\d+|%|\.)")
 
 
 @dataclass(frozen=True)
@@ -160,40 +166,40 @@ def _percent(text: str) -> Unit | None:
 
 def _product(text: str) -> Unit | None:
     """Read a product of powers; what follows the first slash is below it, as people write cm/s*s."""
-    tokens: list[str] = []
+    words: list[str] = []
     at = 0
     while at < len(text):
-        match = _TOKEN.match(text, at)
+        match = _WORD.match(text, at)
         if match is None:
             return None
-        tokens.append(match[1])
+        words.append(match[1])
         at = match.end()
     factor, length, time = Fraction(1), 0, 0
     below = False
     k = 0
     bases = 0
-    while k < len(tokens):
-        token = tokens[k]
+    while k < len(words):
+        word = words[k]
         k += 1
-        if token == "/":
+        if word == "/":
             below = True
-            if tokens[k:] == ["10"] and tokens[0] == "g" and bases == 1:  # as CDMG and BHRC write
+            if words[k:] == ["10"] and words[0] == "g" and bases == 1:  # as CDMG and BHRC write
                 return _named(_STANDARD_GRAVITY / 10, (1, -2))
             continue
-        if token in {"*", ".", "(", ")"}:
+        if word in {"*", ".", "(", ")"}:
             continue
-        base = _base(token)
+        base = _base(word)
         power = 1
-        if k < len(tokens) and tokens[k] == "^":
+        if k < len(words) and words[k] == "^":
             k += 1
-            if k < len(tokens) and tokens[k] == "(":
+            if k < len(words) and words[k] == "(":
                 k += 1
-            if k >= len(tokens) or not re.fullmatch(r"-?\d", tokens[k]):
+            if k >= len(words) or not re.fullmatch(r"-?\d", words[k]):
                 return None
-            power = int(tokens[k])
+            power = int(words[k])
             k += 1
-        elif k < len(tokens) and re.fullmatch(r"-?\d", tokens[k]):
-            power = int(tokens[k])
+        elif k < len(words) and re.fullmatch(r"-?\d", words[k]):
+            power = int(words[k])
             k += 1
         if base is None or power == 0 or (below and power < 0):
             return None
@@ -206,20 +212,20 @@ def _product(text: str) -> Unit | None:
     return _named(factor, (length, time)) if bases else None
 
 
-def _base(token: str) -> tuple[Fraction, int, int] | None:
+def _base(word: str) -> tuple[Fraction, int, int] | None:
     """Return size, power of length and power of time of one word."""
-    if token in _TIMES:
-        return _TIMES[token], 0, 1
-    if token in _LENGTHS:
-        return _LENGTHS[token], 1, 0
-    if token in _FREQUENCIES:
-        return _FREQUENCIES[token], 0, -1
-    if token == "kine":
+    if word in _TIMES:
+        return _TIMES[word], 0, 1
+    if word in _LENGTHS:
+        return _LENGTHS[word], 1, 0
+    if word in _FREQUENCIES:
+        return _FREQUENCIES[word], 0, -1
+    if word == "kine":
         return Fraction(1, 100), 1, -1
-    if token in _GAL:
-        return _GAL[token], 1, -2
-    if token in _G:
-        return _G[token] * _STANDARD_GRAVITY, 1, -2
+    if word in _GAL:
+        return _GAL[word], 1, -2
+    if word in _G:
+        return _G[word] * _STANDARD_GRAVITY, 1, -2
     return None
 
 

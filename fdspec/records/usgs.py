@@ -1,4 +1,4 @@
-"""USGS files of the eighties: blocks of acceleration, velocity and displacement under seven lines of words."""
+"""USGS files of the eighties: acceleration, velocity and displacement, each under seven lines of words."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ HEADER_LINES: Final = 7
 _RATE: Final = re.compile(r"SAMPLES/SEC\s{0,9}=\s{0,9}(\d{1,6}(?:\.\d{0,6})?)", re.IGNORECASE)
 _TYPE: Final = re.compile(r"DATA TYPE\s{0,9}=\s{0,9}([A-Z]{2})", re.IGNORECASE)
 _POINTS: Final = re.compile(
-    r"\s{0,20}NO\.? OF POINTS\s{0,9}=\s{0,9}(\d{1,9})\s{0,9},\s{0,9}UNITS\s{0,9}=\s{0,9}([^,]{1,30})", re.IGNORECASE
+    r"\s{0,20}NO\.? OF POINTS\s{0,9}=\s{0,9}(\d{1,9})\s{0,9},\s{0,9}UNITS\s{0,9}=\s{0,9}([^,]{1,30})",
+    re.IGNORECASE,
 )
 _COMPONENT: Final = re.compile(r"COMPONENT\s{0,9}=\s{0,9}(\S{1,20})", re.IGNORECASE)
 
@@ -36,7 +37,7 @@ def _is_header(text: TextFile, first: int) -> bool:
 
 
 def read(text: TextFile) -> tuple[Channel, ...]:
-    """Read the blocks of acceleration; those of velocity and displacement must be whole and are passed over."""
+    """Read the blocks of acceleration; others must be whole and are passed over."""
     channels = []
     first = 1
     while first <= len(text.lines):

@@ -1,7 +1,8 @@
 """What the words of a heading mean: quantities in English and the commonest other languages.
 
 Words are compared without case and accents. Long stems match the words that begin with them, so that
-"accelerazione" and a misspelt "accelaration" are both found under "accel"; short ones, and those listed with a full stop, match whole words.
+"accelerazione" and a misspelt "accelaration" are both found under "accel"; short ones, and those listed
+with a full stop, match whole words.
 """
 
 from __future__ import annotations
@@ -30,37 +31,38 @@ _STEM: Final = 4
 _WORDS: Final = {
     # Before acceleration, for these qualify it into something else.
     SPECTRAL: """
-        spectr spektr spettr espectr spectra sa sv sd psa psv psd_ pseudo fourier fft fas psd ductil duct duktil
-        ordinat elastic inelastic elastisch elastico elastique damping damped dampf amortig amortis smorz zeta
-        спектр φασμ 谱 譜 スペクトル 응답스펙트럼
+        spectr spektr spettr espectr spectra sa sv sd psa psv psd_ pseudo fourier fft fas psd ductil duct
+        duktil ordinat elastic inelastic elastisch elastico elastique damping damped dampf amortig amortis
+        smorz zeta спектр φασμ 谱 譜 スペクトル 응답스펙트럼
     """,
     OTHER: """
         peak max maxim maximum min minim minimum pga pgv pgd rms mean average avg std sigma deviation error
-        integrated integral cumul squared square abs magnitude resultant norm vector srss envelope target window
-        weight gyro angul rotation rotat rot winkel torsion angle jerk temperature temp. humidity pressure force
-        moment strain stress voltage volt counts count/ energy arias husid power drift response residual
-        difference intensity coherence phase damage battery date clock latitude longitude lat lon lat/lon depth
-        distance magnitud kraft temperatur spannung fuerza temperatura forza pression sicaklik kuvvet
-        角速度 角加速度 温度 压力 圧力 力 最大 温 気温 累積 电压 電圧
+        integrated integral cumul squared square abs magnitude resultant norm vector srss envelope target
+        window weight gyro angul rotation rotat rot winkel torsion angle jerk temperature temp. humidity
+        pressure force moment strain stress voltage volt counts count/ energy arias husid power drift
+        response residual difference intensity coherence phase damage battery date clock latitude longitude
+        lat lon lat/lon depth distance magnitud kraft temperatur spannung fuerza temperatura forza pression
+        sicaklik kuvvet 角速度 角加速度 温度 压力 圧力 力 最大 温 気温 累積 电压 電圧
         температур давлен сил максимал
     """,
     PERIOD: "period periode periodo periyo peryod период περιοδ perioda okres periodos 周期 주기",
     FREQUENCY: """
-        freq frequ frequenz frequence frequency frecuencia frequenza frekans frekv frekvens czestot частот συχνοτ
-        omega 频率 頻率 周波数 振動数 주파수
+        freq frequ frequenz frequence frequency frecuencia frequenza frekans frekv frekvens czestot частот
+        συχνοτ omega 频率 頻率 周波数 振動数 주파수
     """,
     SAMPLE: """
-        sample samples index idx no nr num number count point points pt row rows id step steps record scan frame
-        line muestra campione echantillon ornek numero nummer sira probe abtastwert amostra номер № #
+        sample samples index idx no nr num number count point points pt row rows id step steps record scan
+        frame line muestra campione echantillon ornek numero nummer sira probe abtastwert amostra номер № #
         序号 序號 番号 编号 编号 点号 번호
     """,
     ACCELERATION: """
-        accel acc accn acce accl acel acele aceler acelera beschl beschleunigung ivme versnel przysp zrychl gyorsul
-        percepat ускор επιταχ ubrzan kiihty akseler aksel accler accelero acceler acceleration 加速度 가속도
+        accel acc accn acce accl acel acele aceler acelera beschl beschleunigung ivme versnel przysp zrychl
+        gyorsul percepat ускор επιταχ ubrzan kiihty akseler aksel accler accelero
+        acceler acceleration 加速度 가속도
     """,
     VELOCITY: """
-        vel veloc velo speed geschw geschwindigkeit vites vitesse hiz snelh predkosc rychlost sebess kecepat скорост
-        ταχυτ hastig brzin nopeu 速度 속도
+        vel veloc velo speed geschw geschwindigkeit vites vitesse hiz snelh predkosc rychlost sebess kecepat
+        скорост ταχυτ hastig brzin nopeu 速度 속도
     """,
     DISPLACEMENT: """
         disp displ dis dspl desplaz deplac spost verschieb weg desloc yerdegis deplasman verplaats przemieszcz
@@ -68,26 +70,28 @@ _WORDS: Final = {
         位移 変位 變位 변위
     """,
     TIME: """
-        time times zeit zeiten temps tempo tiempo zaman sure tid tijd cas czas ido waktu timp aika vreme vrijeme
-        время χρονος elapsed seconds sekunden sekunde secondi segundos secondes second saniye
+        time times zeit zeiten temps tempo tiempo zaman sure tid tijd cas czas ido waktu timp aika vreme
+        vrijeme время χρονος elapsed seconds sekunden sekunde secondi segundos secondes second saniye
         时间 時間 时刻 時刻 시간
     """,
 }  # fmt: skip
 
 _DIRECTIONS: Final = """
-    ns ew ud sn we du n e z s w u v l t r h x y n-s e-w u-d up down updown vert verti vertical vertikal verticale
-    verticaal north south east west norte este sur oeste nord sud est ouest ost suden norden osten westen ovest
-    kuzey guney dogu bati dusey boyuna enine long longi longitudinal trans transv transversal transverse radial
-    tangential tang horiz horizontal hor lateral ch chan channel canal canale kanal kanaal comp component
-    componente composante komponente bilesen deg degree degrees grad azimuth fn fp sensor axis achse eje asse
-    ground base roof floor boden sol suelo zemin strong motion data value values wert werte valeur valor valore
-    raw filtered corrected uncorrected corr uncorr korrigiert corregida corrigee corretta duzeltilmis recorded
-    input signal of the der di de du des d la le el in at station site
+    ns ew ud sn we du n e z s w u v l t r h x y n-s e-w u-d up down updown vert verti vertical vertikal
+    verticale verticaal north south east west norte este sur oeste nord sud est ouest ost suden norden osten
+    westen ovest kuzey guney dogu bati dusey boyuna enine long longi longitudinal trans transv transversal
+    transverse radial tangential tang horiz horizontal hor lateral ch chan channel canal canale kanal kanaal
+    comp component componente composante komponente bilesen deg degree degrees grad azimuth fn fp sensor
+    axis achse eje asse ground base roof floor boden sol suelo zemin strong motion data value values wert
+    werte valeur valor valore raw filtered corrected uncorrected corr uncorr korrigiert corregida corrigee
+    corretta duzeltilmis recorded input signal of the der di de du des d la le el in at station site
     北 南 東 西 东 上 下 垂直 水平 方向 成分 鉛直 竖向 南北 東西 东西 上下 분
 """
 
 AXIS: Final = r"(?:x|y|z|n|e|u|v|l|t|r|h|1|2|3|ns|ew|ud|up|h1|h2|lon|tra|ver)"
-_AZIMUTH: Final = re.compile(r"(?:[ns]\d{1,2}[ew]?|\d{1,3}|(?:ch|hn|bn|en|hl|bh|hh)[a-z0-9]{1,2})(?:deg)?", re.ASCII)
+_AZIMUTH: Final = re.compile(
+    r"(?:[ns]\d{1,2}[ew]?|\d{1,3}|(?:ch|hn|bn|en|hl|bh|hh)[a-z0-9]{1,2})(?:deg)?", re.ASCII
+)
 
 
 def plain(text: str) -> str:

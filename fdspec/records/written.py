@@ -25,7 +25,7 @@ HEADING: Final = "time, s; acceleration, m/s2"
 
 
 def recognises(text: TextFile) -> bool:
-    """Say whether the first line is our title, or the keys below it are ours: a damaged title must not hide them."""
+    """Say whether title or keys are ours: a damaged title must not hide the keys."""
     if text.head(1).strip() == TITLE:
         return True
     heads = text.heads(1, MAX_HEADER)
@@ -60,8 +60,8 @@ def read(text: TextFile) -> tuple[Channel, ...]:
     if behind <= len(text.lines) or table.width != 2 or table.ragged or table.short_last or table.skipped:
         line = table.ragged or (table.last if table.short_last or behind > len(text.lines) else behind)
         line = table.skipped[0] if table.skipped else line
-        found = text.lines[line - 1].strip()[:60]
-        raise text.refusal(line, f"expected a time and an acceleration, found {found!r}")
+        shown = text.lines[line - 1].strip()[:60]
+        raise text.refusal(line, f"expected a time and an acceleration, found {shown!r}")
     dt = number(text, keys, "Time step")
     about = {key: value for key, (_, value) in keys.items()}
     return (

@@ -153,7 +153,8 @@ def test_an_axis_may_be_a_table() -> None:
         ("records = ['FSR1', 2]", "records: must be a name, a path or a table, got 2"),
         (
             "records = [{ path = 'a.txt', unit = 'g' }]",
-            "records: unknown key 'unit' of a record; known are path, units, dt, channel, name, skip, layout, resample_to",
+            "records: unknown key 'unit' of a record; known are path, units, dt, channel, name, skip, "
+             "layout, resample_to",
         ),
         ("records = [{ units = 'g' }]", "records: a record given as a table needs path, its file"),
         (

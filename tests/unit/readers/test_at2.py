@@ -169,7 +169,8 @@ REAL = [
 
 def test_every_real_file_is_read_below(shared_records):
     found = {f"{path.parent.name}/{path.name}" for path in shared_records.glob("*/*.AT2")} - {
-        f"cases/{path.name}" for path in shared_records.glob("cases/*.AT2")  # in test_cases.py
+        f"cases/{path.name}"
+        for path in shared_records.glob("cases/*.AT2")  # in test_cases.py
     }
     assert found == {name for name, *_ in REAL}
 
