@@ -281,9 +281,7 @@ def _record(value: object) -> str | RecordFile:
         raise ValueError("a record given as a table needs path, its file")
     for key, part in value.items():
         seconds = key in {"dt", "resample_to"}
-        if seconds and (
-            isinstance(part, bool) or not isinstance(part, int | float) or not 0 < part < np.inf
-        ):
+        if seconds and (isinstance(part, bool) or not isinstance(part, int | float) or not 0 < part < np.inf):
             raise ValueError(f"{key} of a record must be positive seconds, got {part!r}")
         if key == "skip" and (isinstance(part, bool) or not isinstance(part, int) or part < 0):
             raise ValueError(f"skip of a record must be a whole number of lines, 0 or more, got {part!r}")

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any, Final
 
 import matplotlib as mpl
 
+from fdspec.figures.fonts import give_glyphs
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -20,6 +22,7 @@ UNDATED: Final[dict[str, dict[str, Any]]] = {
 
 def encode(figure: Figure, kind: str) -> bytes:
     """Return the picture as a file of this kind: png, pdf or svg."""
+    give_glyphs(figure)
     file = io.BytesIO()
     # SVG names its parts after random numbers unless it has a salt.
     with mpl.rc_context({"svg.hashsalt": "fdspec"}):
