@@ -289,7 +289,7 @@ def _without_abscissa(line: str, headings: list[Heading], table: Table) -> bool:
     named = [h for h in headings if h.text]
     if any(h.quantity == words.UNKNOWN and h.unit is None for h in named):
         return False
-    return not runs_on(table)
+    return table.dialect.separator is not None or not runs_on(table)
 
 
 def _rises_in(table: Table, column: int, width: int) -> bool:

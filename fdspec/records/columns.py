@@ -142,7 +142,11 @@ def _accelerations(
             skip |= {0}
         return [k for k in range(block.table.width) if k not in skip]
     _refuse_spectra(text, block, headings, time)
-    explicit = [k for k, h in enumerate(headings) if h.quantity == words.ACCELERATION and not _raw(h)]
+    explicit = [
+        k
+        for k, h in enumerate(headings)
+        if h.quantity == words.ACCELERATION and not _raw(h) and not _is_magnitude(block, h, k)
+    ]
     if explicit:
         return explicit
     others = {words.VELOCITY, words.DISPLACEMENT, words.OTHER}
@@ -167,6 +171,12 @@ def _accelerations(
         return directions
     said = ", ".join(f"{heading.text!r} ({heading.said})" for heading in headings)
     raise text.refusal(block.heading_line, f"no heading says acceleration: {said}")
+
+
+def _is_magnitude(block: Block, heading: Heading, column: int) -> bool:
+    """Say whether an absolute acceleration is the length of a vector, which is never negative."""
+    absolute = any(word.startswith("abs") for word in words.tokens(heading.name))
+    return absolute and bool((block.table.columns[:, column] >= 0.0).all())
 
 
 def _raw(heading: Heading) -> bool:

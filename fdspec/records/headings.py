@@ -84,7 +84,7 @@ def heading_of(cell: str) -> Heading:
     unit_text = ""
     rest = text
     for match in list(_BRACKETS.finditer(text))[::-1]:
-        found = unit_of(match[1])
+        found = unit_of(match[1].strip().removeprefix("in ").removeprefix("unit: ").removeprefix("units: "))
         if found is not None and unit is not None and found != unit and found.quantity == unit.quantity:
             unit_text = f"{match[1]} and {unit.name}"
         elif found is not None and unit is None and not _is_argument(text, match):
@@ -103,7 +103,7 @@ def heading_of(cell: str) -> Heading:
     subscript = False
     if unit is None and not unit_text:
         rest, unit, subscript = _unit_behind(rest)
-    name = rest.strip(" ,/:;-=")
+    name = rest.strip(" ,/:;-=([")
     quantity, other = _quantity(name)
     if unit is None and not name and text:
         unit = unit_of(text)
@@ -131,11 +131,11 @@ def _unit_behind(text: str) -> tuple[str, Unit | None, bool]:
             behind = behind.replace("_", "/") if behind.count("_") == 1 and "s2" in behind else behind
             # acc_cm_s2 and acc_cms2 are what programs make of cm/s2.
             behind = re.sub(r"^(m|cm|mm|in|ft)(s|sec)2$", r"\1/\g<2>2", behind, flags=re.IGNORECASE)
-        if boundary[0] == "-" and not unit_of(behind):
-            continue
+        if boundary[0] == "-" and words.quantity_of(before) in {words.DIRECTION, words.UNKNOWN}:
+            continue  # N-S is no N in seconds
         unit = unit_of(behind)
         if unit is not None:
-            short = boundary[0] == "_" and len(before) == 1
+            short = boundary[0] == "_" and bool(_symbol(before)[0])
             return before, unit, short and behind.casefold() in {"g", "s", "m"}
     return text, None, False
 
@@ -209,7 +209,7 @@ def _with_unit(heading: Heading) -> Heading:
     if said == words.PERIOD:
         return replace(heading, contradiction=unit.quantity != words.TIME)
     if said == unit.quantity:
-        return replace(heading, other="")
+        return heading if heading.other == words.PERIOD else replace(heading, other="")
     if said in {words.DIRECTION, words.UNKNOWN, words.SAMPLE} or heading.other:
         if said == words.TIME and heading.other == words.PERIOD and unit.quantity == words.TIME:
             return heading

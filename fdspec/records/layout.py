@@ -9,7 +9,7 @@ import numpy as np
 from fdspec.records import vocabulary as words
 from fdspec.records.block import Block
 from fdspec.records.given import Given
-from fdspec.records.rows import CLEARLY, Table, rises, roughness
+from fdspec.records.rows import CLEARLY, Table, rises, roughness, runs_on
 from fdspec.records.textfile import TextFile
 
 COLUMNS: Final = "columns"
@@ -62,7 +62,7 @@ def counts_rows(table: Table, column: int, decimals: int) -> bool:
 
 def _by_smoothness(text: TextFile, table: Table) -> str:
     along, across = roughness(table)
-    if along < CLEARLY * across:
+    if runs_on(table):
         return ROWS
     if across < CLEARLY * along:
         return COLUMNS

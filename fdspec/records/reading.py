@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import warnings
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -18,6 +19,8 @@ from fdspec.records.formats import BINARY_FORMATS, FORMATS
 from fdspec.records.given import Given, given
 from fdspec.records.resampling import at_equal_steps
 from fdspec.records.textfile import TextFile, decode, read_bytes
+
+_BEGINS_AS_ROW: Final = re.compile(r"\s*[\"']?[+-]?[\d.]")
 
 LIKE_G: Final = (0.02, 0.8)
 """Peaks of strong motions in g; in m/s2 they would hardly be felt."""
@@ -176,6 +179,12 @@ def _read_text(text: TextFile, options: Given) -> tuple[str, tuple[Channel, ...]
         text.take(None, f"format: {rows_of_text.NAME}")
         return rows_of_text.NAME, rows_of_text.read(text, options)
     names = ", ".join([known.name for known in FORMATS] + [known.name for known in BINARY_FORMATS])
+    odd = next((k for k, head in enumerate(text.heads(1, 200), start=1) if _BEGINS_AS_ROW.match(head)), None)
+    if odd is not None:
+        found = text.head(odd).strip()[:60]
+        raise text.refusal(
+            odd, f"the format is not recognised: expected {names} or rows of numbers, found {found!r}"
+        )
     found = text.head(1).strip()[:60]
     raise text.refusal(
         1, f"the format is not recognised: expected {names} or rows of numbers, found {found!r}"

@@ -28,6 +28,9 @@ RISING: Final = 0.8
 CLEARLY: Final = 0.7
 """Neighbours in a series differ less than values a row apart, by this factor, or nothing is concluded."""
 
+OVER_ENDS: Final = 1.3
+"""A series differs from one row's end to the next one's begin as it does within rows, up to this factor."""
+
 _SAMPLE: Final = 40
 """Lines looked at, in each of three places, to tell what parts the cells."""
 
@@ -41,12 +44,14 @@ _NUMERIC: Final = re.compile(r"[0-9+\-.EeDd,;|\s\"']*", re.ASCII)
 class Dialect:
     """What parts the cells of a row: a mark, or blanks when None; whether the comma is the decimal mark.
 
-    `halves`: comma for both, so that two cells make a number.
+    `halves`: comma for both, so that two cells make a number. `width`: characters of a cell, where nothing
+    parts them.
     """
 
     separator: str | None = None
     comma: bool = False
     halves: bool = False
+    width: int = 0
 
     def cells(self, line: str) -> list[str]:
         """Return the cells of a line, with decimal points."""
@@ -57,6 +62,9 @@ class Dialect:
 
     def raw_cells(self, line: str) -> list[str]:
         """Return the cells of a line as written, without quotes; empty ones at the end do not count."""
+        if self.width:
+            line = line.rstrip()
+            return [line[k : k + self.width].strip() for k in range(0, len(line), self.width)]
         if self.separator is None:
             return line.replace('"', " ").split()
         if '"' in line:
@@ -84,7 +92,7 @@ class Dialect:
     def words(self, line: str) -> list[str]:
         """Return the cells of a row, those that touch parted."""
         cells = self.cells(line)
-        if self.separator is not None or self.comma:
+        if self.separator is not None or self.comma or self.width:
             return cells
         words: list[str] = []
         for cell in cells:
@@ -97,13 +105,14 @@ class Dialect:
     @property
     def said(self) -> str:
         """What parts the cells, in words."""
+        if self.width:
+            return f"columns of {self.width} characters"
         names = {None: "blanks", "\t": "tabs", ",": "commas", ";": "semicolons", "|": "bars"}
         return names[self.separator] + (", decimal commas" if self.comma or self.halves else "")
 
 
 _DIALECTS: Final = tuple(
     Dialect(separator, comma) for separator in (";", "\t", ",", "|", None) for comma in (False, True)
-    if not (separator == "," and comma)
 )  # fmt: skip
 
 
@@ -169,6 +178,8 @@ def dialect_of(text: TextFile, start: int = 1) -> Dialect | None:
                 continue
             if dialect.comma and "," not in line:
                 continue
+            if dialect.comma and dialect.separator == "," and '"' not in line:
+                continue  # only quotes tell its commas apart
             if dialect.numbers(line) is not None:
                 scores[dialect] += 1
     if not scores:
@@ -194,6 +205,32 @@ def dialect_of(text: TextFile, start: int = 1) -> Dialect | None:
         if not dialect.comma and twin in scores and all(twin.numbers(line) is not None for line in lines):
             return twin
     return best[0]
+
+
+def fixed_width_of(text: TextFile, start: int = 1) -> Dialect | None:
+    """Return the width of cells that touch without a sign between them, from their decimal points.
+
+    In columns of one width, all numbers have their points at one place and equally many decimals. A width that
+    shows this in every line, and is the only one that does, is believed.
+    """
+    lines = [line.rstrip() for line in _sample(text, start, len(text.lines))]
+    lines = [line for line in lines if line.count(".") >= 2]
+    if len(lines) < 2:
+        return None
+    widths = [width for width in range(3, 26) if _fits(lines, width)]
+    return Dialect(width=widths[0]) if len(widths) == 1 else None
+
+
+def _fits(lines: list[str], width: int) -> bool:
+    places = set()
+    for line in lines:
+        cells = [line[k : k + width] for k in range(0, len(line), width)]
+        if len(cells) < 2 or any(
+            len(cell) != width or cell.count(".") != 1 or parse_number(cell.strip()) is None for cell in cells
+        ):
+            return False
+        places |= {cell.index(".") for cell in cells}
+    return len(places) == 1
 
 
 def _sample(text: TextFile, start: int, last: int) -> list[str]:
@@ -335,7 +372,7 @@ def table_from(text: TextFile, first: int, dialect: Dialect) -> tuple[Table, int
 
 def _quick(block: str, dialect: Dialect, width: int) -> NDArray[np.float64] | None:
     """Return the values of lines that are rows of `width` plain numbers, all of them; else None."""
-    if dialect.halves or '"' in block or not _NUMERIC.fullmatch(block):
+    if dialect.halves or dialect.width or '"' in block or not _NUMERIC.fullmatch(block):
         return None
     separator = dialect.separator
     lines = block.split("\n")
@@ -419,6 +456,11 @@ def roughness(table: Table) -> tuple[float, float]:
 
 
 def runs_on(table: Table) -> bool:
-    """Say whether the values clearly run on along the rows."""
+    """Say whether the values clearly run on along the rows, over the ends of the rows too.
+
+    Channels that resemble each other, such as two floors, have like neighbours in a row, but no such ends.
+    """
     along, across = roughness(table)
-    return along < CLEARLY * across
+    whole = table.values[: table.values.size // table.width * table.width].reshape(-1, table.width)
+    over = float(np.abs(whole[1:, 0] - whole[:-1, -1]).mean())
+    return along < CLEARLY * across and over < OVER_ENDS * along

@@ -108,6 +108,10 @@ _BRACKETED: Final = re.compile(r"[\[(]\s{0,3}([^()\[\]]{1,20})[\])]")
 _INSTRUMENT: Final = re.compile(
     r"(?:accelero|acelero)(?:met|graph|graf)\w*|accelerometr\w*|velocimet\w*|速度計|加速度計"
 )
+_OF_PEAKS: Final = re.compile(
+    r"\b(?:pga|pgv|pgd|peaks?|range|full.?scale|fullscale|sensitiv\w*|trigger\w*|threshold|resolution|limits?|noise|"
+    r"gain|factor|arias|vs30)\b"
+)
 _OF_FILTERS: Final = re.compile(
     r"\b(?:filter|cut-?off|cut|corner|poles?|order|nyquist|pass|bandpass|magnitude)\b"
 )
@@ -148,7 +152,7 @@ def is_note(line: str) -> bool:
     """Say whether a line is about a peak, a range or a filter, or says that something has a value."""
     text = plain(line[:MAX_STATEMENT])
     return (
-        _A_NOTE.search(text) is not None
+        _OF_PEAKS.search(text) is not None
         or _OF_FILTERS.search(text) is not None
         or re.search(r"\bunits? (?:of|are|is)\b", text) is not None
     )

@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Final
 
+from fdspec.errors import RecordError
 from fdspec.records import vocabulary as words
 from fdspec.records.block import Block, block_from
 from fdspec.records.channel import Channel
 from fdspec.records.columns import read_columns
 from fdspec.records.given import Given
 from fdspec.records.layout import ROWS, layout_of
-from fdspec.records.rows import MAX_HEADER, Dialect, dialect_of, first_row
+from fdspec.records.rows import MAX_HEADER, Dialect, dialect_of, first_row, fixed_width_of
 from fdspec.records.running import read_running
 from fdspec.records.textfile import TextFile
 
@@ -25,7 +26,7 @@ NOTHING: Final = Given()
 
 def recognises(text: TextFile) -> bool:
     """Say whether rows of numbers follow after at most 200 header lines."""
-    dialect = dialect_of(text)
+    dialect = dialect_of(text) or fixed_width_of(text)
     return dialect is not None and first_row(text, dialect) is not None
 
 
@@ -34,7 +35,18 @@ def read(text: TextFile, given: Given = NOTHING) -> tuple[Channel, ...]:
     start = 1 if given.skip is None else given.skip + 1
     if start > len(text.lines):
         raise text.refusal(None, f"skip is given as {given.skip}, but the file has {len(text.lines)} lines")
-    dialect = dialect_of(text, start)
+    dialect = dialect_of(text, start) or fixed_width_of(text, start)
+    try:
+        return _read(text, start, dialect, given)
+    except RecordError:
+        # Values may touch in a few rows alone, where they are largest.
+        touching = fixed_width_of(text, start) if dialect == Dialect() else None
+        if touching is None:
+            raise
+        return _read(text, start, touching, given)
+
+
+def _read(text: TextFile, start: int, dialect: Dialect | None, given: Given) -> tuple[Channel, ...]:
     if dialect is None:
         raise text.refusal(None, f"expected rows of numbers after at most {MAX_HEADER} header lines")
     text.take(None, f"rows of numbers parted by {dialect.said}")

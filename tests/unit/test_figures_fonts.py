@@ -23,7 +23,7 @@ def test_a_name_beyond_latin_is_drawn_without_a_missing_glyph(name):
     figure = picture(name)
     figure.savefig(io.BytesIO(), format="png")  # a missing glyph is warned of, and warnings are errors here
     title = figure.get_suptitle()
-    missing = fonts.missing_glyphs(title, figure._suptitle.get_fontproperties())  # noqa: SLF001
+    missing = fonts.missing_glyphs(title, figure._suptitle.get_fontproperties())
     assert missing == ""
 
 
