@@ -11,7 +11,8 @@ from matplotlib.ft2font import FT2Font
 from matplotlib.text import Text
 
 FIRST_TRIED: Final = (
-    "Noto Sans CJK JP", "Noto Sans CJK SC", "Noto Sans JP", "Noto Sans SC", "Source Han Sans", "Microsoft YaHei",
+    "Noto Sans CJK JP", "Noto Sans CJK SC", "Noto Sans JP", "Noto Sans SC", "Source Han Sans",
+    "Microsoft YaHei",
     "SimHei", "PingFang SC", "Hiragino Sans", "Yu Gothic", "MS Gothic", "Malgun Gothic", "WenQuanYi Zen Hei",
     "WenQuanYi Micro Hei", "IPAexGothic", "TakaoGothic", "Droid Sans Fallback", "Arial Unicode MS",
 )  # fmt: skip

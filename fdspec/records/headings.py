@@ -79,7 +79,9 @@ class Heading:
 
 def heading_of(cell: str) -> Heading:
     """Return what one heading means by itself."""
-    text = " ".join(cell.strip(" \t\r#%!*\"'`").split())[:MAX_HEADING]
+    text = " ".join(cell.strip(' \t\r#%!*"`').split())[:MAX_HEADING]
+    if text.startswith("'"):  # two behind a symbol derive it
+        text = text.strip("'")
     unit: Unit | None = None
     unit_text = ""
     rest = text
@@ -241,6 +243,8 @@ def row_of(cells: list[str]) -> list[Heading]:
             first_time = k == 0 and heading.quantity == words.TIME
             if (clear or is_axis) and not first_time:
                 new = replace(heading, quantity=words.DIRECTION, other="")
+        elif heading.text == "T" and k > 0 and clear and not accelerates:
+            new = replace(heading, quantity=words.DIRECTION, other="")
         elif heading.quantity == words.DIRECTION and heading.other == words.SAMPLE:
             new = (
                 replace(heading, other="")

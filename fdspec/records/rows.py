@@ -210,7 +210,8 @@ def dialect_of(text: TextFile, start: int = 1) -> Dialect | None:
 def fixed_width_of(text: TextFile, start: int = 1) -> Dialect | None:
     """Return the width of cells that touch without a sign between them, from their decimal points.
 
-    In columns of one width, all numbers have their points at one place and equally many decimals. A width that
+    In columns of one width,
+    all numbers have their points at one place and equally many decimals. A width that
     shows this in every line, and is the only one that does, is believed.
     """
     lines = [line.rstrip() for line in _sample(text, start, len(text.lines))]

@@ -50,8 +50,9 @@ _STEP_KEY: Final = (
     r"采样间隔|时间间隔|时间步长|采样周期|サンプリング間隔|時間間隔|時間刻み)"
 )
 _RATE_KEY: Final = (
-    r"(?:sampl(?:e|ing)[ _-]?(?:rate|freq(?:uency)?|frequenz)(?: hz)?|data[ _-]rate|sps|fs|samprate|"
-    r"samples?\s?(?:/|per)\s?(?:s|sec|second)\b|abtast(?:rate|frequenz)|frequence d'echantillonnage|"
+    r"(?:sampl(?:e|ing)[ _-]?(?:rate|freq(?:uency)?|frequenz)(?: hz)?|data[ _-]rate|samprate|"
+    r"(?:sps|fs|samples?\s?(?:/|per)\s?(?:s|sec|second))(?=\s{0,9}[:=])|"
+    r"abtast(?:rate|frequenz)|frequence d'echantillonnage|"
     r"(?:frecuencia|velocidad|vel\.|tasa) de muestreo|frequenza di campionamento|taxa de amostragem|"
     r"ornekleme (?:frekansi|hizi|orani)|частота дискретизации|采样(?:频)?率|采样频率|"
     r"サンプリング(?:周波数|レート)|標本化周波数)"
@@ -234,7 +235,9 @@ def _read_steps(found: Statements, number: int, text: str) -> None:
             if rate is None:
                 continue
             kilo = pattern is _KEY_RATE and "khz" in ((match["unit"] or ""), (match["key_unit"] or ""))
-            found.steps.append((number, 1.0 / (rate * (1000.0 if kilo else 1.0)), match[0].strip()))
+            step = 1.0 / (rate * (1000.0 if kilo else 1.0))
+            if (number, step) not in [(line, other) for line, other, _ in found.steps]:
+                found.steps.append((number, step, match[0].strip()))
 
 
 def _positive(word: str) -> float | None:
@@ -251,7 +254,7 @@ def _read_unit(found: Statements, number: int, clause: str, rest: str) -> None:
         filler = _UNIT_FILLER.match(rest, start)
         unit, spelling = _longest_unit(rest[filler.end() if filler else start :])
         if unit is not None:
-            found.units.append((number, unit, f"{word[0]} {spelling}"))
+            _add_unit(found, number, unit, f"{word[0]} {spelling}")
             return
     if word := _ACCELERATION.search(clause):
         for before in _BEFORE_UNIT.finditer(rest[: word.end() + 60], word.end()):
@@ -259,7 +262,7 @@ def _read_unit(found: Statements, number: int, clause: str, rest: str) -> None:
                 return
             unit, spelling = _longest_unit(rest[before.end() :])
             if unit is not None:
-                found.units.append((number, unit, f"{word[0]} {before[0].strip()} {spelling}"))
+                _add_unit(found, number, unit, f"{word[0]} {before[0].strip()} {spelling}")
                 return
     for bracket in _BRACKETED.finditer(clause):
         if any(char.isdigit() for char in clause[: bracket.start()][-2:] + clause[bracket.end() :][:2]):
@@ -267,6 +270,11 @@ def _read_unit(found: Statements, number: int, clause: str, rest: str) -> None:
         unit = unit_of(bracket[1])
         if unit is not None and unit.quantity == vocabulary.ACCELERATION:
             found.bracketed.append((number, unit, bracket[0]))
+
+
+def _add_unit(found: Statements, number: int, unit: Unit, phrase: str) -> None:
+    if not any(line == number and other == unit for line, other, _ in found.units):
+        found.units.append((number, unit, phrase))
 
 
 def _longest_unit(text: str) -> tuple[Unit | None, str]:

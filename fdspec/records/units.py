@@ -109,7 +109,7 @@ class Unit:
 
 def unit_of(spelling: str) -> Unit | None:
     """Return the unit that a text spells, the whole of it and nothing else; None when it is no unit."""
-    text = spelling.strip().strip("\"'`$").strip()
+    text = spelling.strip().strip("\"'`$[]<>").strip()
     if not text or len(text) > MAX_SPELLING or text.startswith(("/", "*", "^")):
         return None
     text = _simplified(text)
