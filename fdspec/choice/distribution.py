@@ -9,15 +9,16 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from fdspec.building import Building
 from fdspec.choice.bench import Bench
 from fdspec.choice.search import FINEST, POINTS, Function, Scan, scan
 from fdspec.choice.variables import OPTIMUM
-from fdspec.cube import assemble
 from fdspec.errors import InvalidInput
 from fdspec.measures.indices import Weights, weights_of
-from fdspec.motion import GroundMotion
-from fdspec.progress import progress as progress_bar
+from fdspec.model.building import Building
+from fdspec.model.motion import GroundMotion
+from fdspec.runs.cube import assemble
+from fdspec.scheduling.progress import Shown
+from fdspec.scheduling.progress import progress as progress_bar
 
 FloatArray = NDArray[np.float64]
 
@@ -44,7 +45,7 @@ def optimise(
     generations: int = 30,
     seed: int = 0,
     workers: int | None = None,
-    progress: bool = False,
+    progress: Shown = False,
 ) -> xr.Dataset:
     """Find the slip forces that lower a performance index of a building most, over an ensemble of records.
 
@@ -70,8 +71,8 @@ def optimise(
         Of that search.  The same seed gives the same bits, whatever the number of workers.
     workers : int, optional
         Threads; one a core unless given.
-    progress : bool
-        Show a bar on stderr where it is a terminal.
+    progress : bool or callable
+        Show a bar on stderr where it is a terminal or a notebook's; or call this with (done, total).
 
     Returns
     -------

@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.output import force_option, free
 from fdspec.cli.record_options import RecordsOption, file_options, named_records
 
 if TYPE_CHECKING:
-    from fdspec.building import Building
+    from fdspec.model.building import Building
 
 PAGES = (".html", ".htm")
 
@@ -88,6 +89,9 @@ PAGES = (".html", ".htm")
 @click.option("--seed", type=int, default=0, show_default=True, metavar="N", help="Of a free distribution.")
 @click.option("--workers", type=int, metavar="N", help="Threads.  [default: one a core]")
 @click.option("--html", metavar="FILE.html", help="Write the report as one page with pictures too.")
+@click.option("--title", default="", metavar="TEXT", help="Title of the page.")
+@click.option("--project", default="", metavar="TEXT", help="Project that the page names.")
+@click.option("--author", default="", metavar="TEXT", help="Author that the page names.")
 @click.option("-o", "--output", metavar="FILE.nc", help="Write every number of it, netCDF.")
 @force_option
 def choose(
@@ -113,6 +117,9 @@ def choose(
     seed: int,
     workers: int | None,
     html: str | None,
+    title: str,
+    project: str,
+    author: str,
     output: str | None,
     force: bool,
 ) -> None:
@@ -127,6 +134,8 @@ def choose(
         fdspec choose --record FSR1 --record mine.AT2 --period 0.8 --html choice.html
     """
     page_path = None if html is None else free(html, force=force, suffixes=PAGES)
+    if html is None and (title or project or author):
+        raise click.UsageError("--title, --project and --author are of the page; give --html.")
     cube_path = None if output is None else free(output, force=force)
     click_context = click.get_current_context()
     if building is not None:
@@ -138,11 +147,11 @@ def choose(
                     f"{option} is of the single-storey frame; {building} tells the building."
                 )
 
-    from fdspec.building import Building
-    from fdspec.building_file import read_building
     from fdspec.choice import choose as compute
+    from fdspec.model.building import Building
+    from fdspec.model.building_file import read_building
     from fdspec.report.text import text
-    from fdspec.study import STUDY_RECORDS, find_record
+    from fdspec.runs.study import STUDY_RECORDS, find_record
 
     chosen: Building = (
         read_building(building)
@@ -173,19 +182,22 @@ def choose(
         workers=workers,
         progress=True,
     )
-    click.echo(text(choice))
+    from fdspec.cli.table import text_width
+
+    echo(text(choice, width=text_width()))
     if cube_path is not None:
         from fdspec.store import save
 
         save(choice, cube_path, overwrite=force)
-        click.echo(str(cube_path))
+        echo(str(cube_path))
     if page_path is not None:
         from fdspec.report.page import page
         from fdspec.store.replacing import replacing
 
         with replacing(page_path, suffixes=PAGES) as part:
-            part.write_text(page(choice, chosen, motions), encoding="utf-8")
-        click.echo(str(page_path))
+            written = page(choice, chosen, motions, title=title, project=project, author=author)
+            part.write_text(written, encoding="utf-8")
+        echo(str(page_path))
 
 
 def _index(given: str) -> str | dict[str, float]:

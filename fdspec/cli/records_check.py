@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.table import counted, table
 from fdspec.errors import FdspecError
 
@@ -41,16 +42,16 @@ def check_records(folder: str, link: bool, as_json: bool) -> None:
     FMR1, FMR3 and FHR2: components of the same event with the same PGA are candidates, as are near misses of
     the others. --link takes what was found, never a candidate; `fdspec records link` takes one.
     """
-    from fdspec.progress import progress
     from fdspec.records.check import check_folder, files_below, link_found
     from fdspec.records.links import links
+    from fdspec.scheduling.progress import progress
 
     files, _ = files_below(folder)
     with progress(len(files), "files") as done:
         check = check_folder(folder, on_file=lambda _: done(1))
     new = link_found(check) if link else {}
     report = _as_json if as_json else _as_text
-    click.echo(report(folder, check, links()))
+    echo(report(folder, check, links()))
     if link and not new:
         raise FdspecError(f"{folder} has none of the study's records for certain: nothing was linked")
 

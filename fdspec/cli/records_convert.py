@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.output import force_option, free
 from fdspec.cli.record_options import AboutFile, reading_options, record_about
 
 if TYPE_CHECKING:
-    from fdspec.motion import GroundMotion
+    from fdspec.model.motion import GroundMotion
 
 
 @click.command("convert")
@@ -68,9 +69,9 @@ def convert_record(
         raise click.UsageError("Give one of --factor, --pga and --pga-g.")
     path = free(output, force=force, suffixes=(".at2", ".txt"))
 
-    from fdspec import processing
     from fdspec.records.writing import write_record
-    from fdspec.study import find_record
+    from fdspec.runs.study import find_record
+    from fdspec.signals import processing
     from fdspec.units import G
 
     named = record_about(record, about)
@@ -94,7 +95,7 @@ def convert_record(
     if pga_g is not None:
         motion = motion.scaled_to_pga(pga_g * G)
     write_record(motion, path)
-    click.echo(_written(motion, str(path)))
+    echo(_written(motion, str(path)))
 
 
 def _written(motion: GroundMotion, path: str) -> str:

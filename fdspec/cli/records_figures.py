@@ -6,6 +6,7 @@ from typing import Final
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.output import force_option, free, made_folder, save_picture
 from fdspec.cli.record_options import RecordsOption, file_options, named_records
 
@@ -52,8 +53,8 @@ def draw_records(
 
     from fdspec.cli.record_spectra import drawn_spectra
     from fdspec.figures import plot_histories, plot_spectra
+    from fdspec.runs.study import STUDY_RECORDS, find_record
     from fdspec.store.provenance import origins
-    from fdspec.study import STUDY_RECORDS, find_record
 
     folder = made_folder(output)
     paths = [folder / f"records-{what}.{kind}" for what in ("histories", "spectra")]
@@ -66,4 +67,4 @@ def draw_records(
     pictures = plot_histories(motions, note=note), plot_spectra(spectra, note=note)
     for picture, path in zip(pictures, paths, strict=True):
         save_picture(picture, path)
-    click.echo("\n".join(map(str, paths)))
+    echo("\n".join(map(str, paths)))

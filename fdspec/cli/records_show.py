@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Final
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.output import PICTURES, force_option, free, save_picture
 from fdspec.cli.record_options import AboutFile, reading_options, record_about
 from fdspec.errors import RecordError
 
 if TYPE_CHECKING:
-    from fdspec.motion import GroundMotion
+    from fdspec.model.motion import GroundMotion
     from fdspec.records import CatalogueEntry
 
 DAMPING: Final = (0.02, 0.05, 0.10)
@@ -51,7 +52,7 @@ def show_record(
     picture = None if figure is None else free(figure, force=force, suffixes=PICTURES)
 
     from fdspec.records import catalogue
-    from fdspec.study import find_record, is_catalogued
+    from fdspec.runs.study import find_record, is_catalogued
     from fdspec.units import G
 
     named = record_about(record, about)
@@ -81,7 +82,7 @@ def show_record(
     if picture is not None:
         _draw(motion, picture)
         shown["figure"] = str(picture)
-    click.echo(json.dumps(shown, indent=2) if as_json else _lines(shown))
+    echo(json.dumps(shown, indent=2) if as_json else _lines(shown))
 
 
 def _catalogued(entry: CatalogueEntry) -> dict[str, object]:
@@ -108,7 +109,7 @@ def _catalogued(entry: CatalogueEntry) -> dict[str, object]:
 
 def _intensity(motion: GroundMotion) -> dict[str, object]:
     """Return the intensity measures; none of a motion that is zero throughout, which has no duration."""
-    from fdspec.intensity import intensity
+    from fdspec.signals.intensity import intensity
 
     if motion.pga == 0.0:
         return {}
@@ -141,10 +142,10 @@ def _taken(record: str, about: AboutFile, as_json: bool) -> list[str]:
     except RecordError as error:
         notes = getattr(error, "__notes__", [])
         if notes and not as_json:
-            click.echo(_lines({"taken_for": notes}))
+            echo(_lines({"taken_for": notes}))
         raise
     if about.channel is None and len(reading.motions) > 1 and not as_json:
-        click.echo(_lines({"taken_for": list(reading.taken)}))
+        echo(_lines({"taken_for": list(reading.taken)}))
     return list(reading.taken)
 
 

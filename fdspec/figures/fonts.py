@@ -29,7 +29,7 @@ def give_glyphs(figure: Figure) -> None:
         if family is None:
             text.set_text(in_ascii(text.get_text(), missing))
         else:
-            text.set_family([*text.get_family(), family])
+            text.set_fontfamily([*text.get_fontfamily(), family])
 
 
 def missing_glyphs(words: str, properties: FontProperties) -> str:

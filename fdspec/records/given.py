@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final
 
-from fdspec.checked import positive_number
 from fdspec.errors import InvalidInput
+from fdspec.model.number_check import positive_number
 from fdspec.records.units import unit_named
 
 LAYOUTS: Final = ("columns", "rows")

@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 
 from fdspec.errors import InvalidInput, RecordError
-from fdspec.motion import GroundMotion
+from fdspec.model.motion import GroundMotion
 from fdspec.records import text as rows_of_text
 from fdspec.records.channel import Channel
 from fdspec.records.formats import BINARY_FORMATS, FORMATS

@@ -25,7 +25,7 @@ def at_equal_steps(name: str, channel: Channel, step: float | None) -> Channel:
         if step is not None and abs(step - channel.dt) > 1e-9 * channel.dt:
             raise RecordError(
                 f"{name}: resample_to is for unequal steps, and these are equal, {channel.dt:g} s: "
-                "fdspec.processing.resampled changes them, as `fdspec records convert --resample` does"
+                "fdspec.signals.processing.resampled, or `fdspec records convert --resample`, changes them"
             )
         return channel
     if step is None:

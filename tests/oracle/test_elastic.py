@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.signal import StateSpace, lsim
 
-from fdspec.motion import GroundMotion
+from fdspec.model.motion import GroundMotion
 from fdspec.records import load_record
-from fdspec.spectra import elastic_spectra
+from fdspec.signals.spectra import elastic_spectra
 from tests.oracle.elastic_exponential import elastic_peaks
 
 
@@ -28,6 +28,16 @@ def test_matrix_exponential(dt, zeta):
         found = spectra.sel(period=period)
         assert float(found.spectral_displacement) == pytest.approx(expected[0], rel=1e-9)
         assert float(found.absolute_acceleration) == pytest.approx(expected[1], rel=1e-9)
+
+
+@pytest.mark.parametrize("zeta", [0.0, 0.05])
+def test_the_first_steps_of_long_periods(zeta):
+    """From rest the acceleration of a slow oscillator begins with the fifth power of the phase."""
+    motion = GroundMotion([0.0, 1.0, -0.5], 0.01, "short")
+    for period in (20.0, 70.0, 300.0):
+        spectra = elastic_spectra(motion, [period], zeta).squeeze()
+        expected = elastic_peaks(motion.acceleration, 0.01, period, zeta)
+        assert float(spectra.absolute_acceleration) == pytest.approx(expected[1], rel=1e-12)
 
 
 def test_a_real_record_at_its_samples():

@@ -1,8 +1,8 @@
-"""Long files: the work of every reader grows as their length does, and memory stays within ten times of it.
+"""Long files: every reader's work grows as their length does, and its memory stays within ten times of it.
 
-Work is counted in calls, not timed, so that the machine's other business does not matter. What a search does inside
-is not counted; each works on the head of a line, which is bounded, and their time has a bound that only a search
-whose time grows with the square of its text misses.
+Work is counted in calls, not timed, so that the machine's other business does not matter. What a search does
+inside is not counted; each works on the head of a line, which is bounded, and their time has a bound that only
+a search whose time grows with the square of its text misses.
 """
 
 import sys
@@ -18,8 +18,9 @@ from fdspec.records import read_channels
 from tests.fixtures.records.samples import SAMPLES
 
 FILLERS = [
-    " ", "0 ", "1.0-", "(", "acceleration in ", "units ", "x y ", ": ", '"', "\t", "1.5", "[", "a", "accel ", "in ",
-    "= ", ";", ",", "#", "-", "e", "999", "NPTS=1 ", "time step ", "number of of of ", "units=(", "station ", "|",
+    " ", "0 ", "1.0-", "(", "acceleration in ", "units ", "x y ", ": ", '"', "\t", "1.5", "[", "a", "accel ",
+    "in ", "= ", ";", ",", "#", "-", "e", "999", "NPTS=1 ", "time step ", "number of of of ", "units=(",
+    "station ", "|",
 ]  # fmt: skip
 
 

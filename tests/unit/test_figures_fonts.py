@@ -7,8 +7,8 @@ import pytest
 
 from fdspec.figures import fonts, plot_record
 from fdspec.figures.page import Figure
-from fdspec.motion import GroundMotion
-from fdspec.spectra import elastic_spectra
+from fdspec.model.motion import GroundMotion
+from fdspec.signals.spectra import elastic_spectra
 
 NAMES = "汶川 卧龙", "益城町 平成28年"
 

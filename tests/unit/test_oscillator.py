@@ -11,13 +11,11 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.linalg import expm
 
-from fdspec.kernels.oscillator import (
-    MOST,
+from fdspec.kernels.mathematics.oscillator import (
     SHORT_ANGLE,
     TERMS,
     advance,
     ahead,
-    ahead_in_lane,
     area,
     expand,
     rate_bound,
@@ -27,8 +25,8 @@ from fdspec.kernels.oscillator import (
     step_map,
     undamped_ahead,
 )
-from fdspec.kernels.plan import RADIANS
-from fdspec.kernels.quadrature import SHORT, series_area, series_square, short_square, square_form
+from fdspec.kernels.mathematics.quadrature import SHORT, series_area, series_square, short_square, square_form
+from fdspec.kernels.storey.constants import RADIANS
 
 OSCILLATORS = [
     (0.0, 400.0, 0.03),
@@ -85,12 +83,6 @@ def test_sine_and_cosine_are_those_of_the_library(angle: float) -> None:
     sine, cosine = sine_cosine(angle)
     assert abs(sine - math.sin(angle)) <= 2.0**-52 * angle
     assert abs(cosine - math.cos(angle)) <= 2.0**-52
-
-
-@pytest.mark.parametrize("order", range(4, MOST + 1))
-@given(*[st.floats(-2.0, 2.0)] * 4)
-def test_a_lane_sums_the_same_series(order: int, x: float, v: float, p0: float, p1: float) -> None:
-    assert ahead_in_lane(x, v, 0.9, 36.0, p0, p1, 0.1, order) == ahead(x, v, 0.9, 36.0, p0, p1, 0.1, order)
 
 
 @pytest.mark.parametrize(("g", "w2", "h"), OSCILLATORS)

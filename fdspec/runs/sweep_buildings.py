@@ -1,0 +1,338 @@
+"""Buildings and ground motions -> the cube of N-storey buildings."""
+
+from __future__ import annotations
+
+import logging
+import math
+from collections.abc import Iterable, Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from fdspec.model.building import Building, Frame
+from fdspec.model.building_grid import BuildingGrid, Buildings
+from fdspec.model.motion import GroundMotion
+from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_history
+from fdspec.runs.cube import assemble, chosen, named
+from fdspec.runs.plausible import warn_of_units
+from fdspec.scheduling.progress import Shown
+from fdspec.scheduling.threads import Task, cores, fan_out, plan
+from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS, demand_variables
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+LONG: Final = 60.0
+"""s of work above which it is told what a stop would lose."""
+
+log = logging.getLogger(__name__)
+
+LIMITS: Final = ("elastic_acceleration", "braced_acceleration")
+DEMANDS: Final = tuple(v.name for v in demand_variables(()))
+"""Outputs of sweeps with devices alone."""
+RESPONSES: Final = tuple(
+    v.name for v in BUILDING_CUBE.values() if v.dims[:4] == BUILDING_DIMS and v.name not in DEMANDS
+)
+OUTPUTS: Final = (*RESPONSES, *LIMITS)
+
+
+def sweep_buildings(
+    motions: GroundMotion | Sequence[GroundMotion],
+    buildings: Buildings,
+    *,
+    slip_scale: ArrayLike,
+    stiffness_scale: ArrayLike,
+    outputs: Iterable[str] | None = None,
+    certify: bool = True,
+    workers: int | None = None,
+    scheduler: str = "threads",
+    cells_per_task: int | None = None,
+    client: Client | None = None,
+    progress: Shown = False,
+) -> xr.Dataset:
+    """Compute the cube of buildings: peaks of every storey over record, building and two factors on dampers.
+
+    Each history is integrated exactly, event by event, under a ground acceleration that is linear
+    between samples; see `fdspec.simulate` for one of them with its course in time.
+
+    Parameters
+    ----------
+    motions : GroundMotion or sequence of them
+        Named differently; their names become the ``record`` coordinate.
+    buildings : Building, sequence of them, or mapping of names to them
+        All with the same number of storeys N; the names become the ``building`` coordinate, "1", "2"
+        and so on where there are none.
+    slip_scale : array_like
+        Factors on the slip forces of all dampers, which is on their pretension; strictly increasing.
+        0 slides freely, infinity never slips.  A slip force that is 0 or infinite stays so under every
+        factor.
+    stiffness_scale : array_like
+        Factors on the stiffness of all braces, positive, strictly increasing.  A dashpot beside a brace
+        goes with the square root: the brace keeps its damping ratio.  The frame's own damping stays.
+    outputs : iterable of str, optional
+        Variables of the cube; all unless given.
+    certify : bool
+        Whether to compute ``energy_error``; without it the sweep is faster.
+    workers : int, optional
+        Threads (or processes); one a core unless given.
+    scheduler : str
+        A scheduler of dask: "threads", "processes" or "synchronous".
+    cells_per_task : int, optional
+        Histories of one task; about 0.2 s of work unless given.  No result depends on it.
+    client : distributed.Client, optional
+        Any cluster of dask.distributed, in place of threads here.
+    progress : bool or callable
+        Show a bar on stderr where it is a terminal or a notebook's; or call this with (done, total).
+
+    Returns
+    -------
+    xarray.Dataset
+        Where a building has columns that yield, slots, gravity or links, all cells have the demands on
+        these too (`fdspec.variables.demand_variables`), and a history may end with the status ``collapsed``.
+        Dims (record, building, stiffness_scale, slip_scale) and, for what each storey has of its own,
+        storey; variables, units and meanings are those of `fdspec.variables.BUILDING_CUBE`.
+
+    Raises
+    ------
+    InvalidInput
+        For an argument that cannot be used, by name and value.
+
+    Notes
+    -----
+    Results are held in memory until the end: a sweep that is stopped loses them.  Where that is more than a
+    minute of work a warning is logged.
+
+    The equations of motion are the study's (19) to (25).  Of the limits that ride along,
+    ``elastic_acceleration`` is the frame without braces.  A damper that slides freely is another
+    building: the braces stand on the floors and swing there, and ``slip_scale`` 0 computes it.
+
+    Examples
+    --------
+    >>> import fdspec
+    >>> frame = fdspec.Building.from_periods([40e3, 40e3], 0.5, 0.3, slip_force=50e3, brace_mass=50.0)
+    >>> motion = fdspec.GroundMotion([0.0, 3.0, -2.0, 0.0], 0.1, name="mine")
+    >>> cube = fdspec.sweep_buildings(motion, {"office": frame}, slip_scale=[0.5, 1], stiffness_scale=1)
+    >>> dict(cube.peak_drift.sizes)
+    {'record': 1, 'building': 1, 'stiffness_scale': 1, 'slip_scale': 2, 'storey': 2}
+    """
+    grid = BuildingGrid(buildings, stiffness_scale, slip_scale)
+    motions = named(motions)
+    known = (*OUTPUTS, *_demands(grid))
+    wanted = chosen(outputs, known, certify)
+    histories = _ends(grid)[-1 if set(LIMITS) & set(wanted) else 0]
+    what = f"a sweep of {len(motions) * histories:.4g} histories"
+    refuse_large(8.0 * len(motions) * histories * grid.n_storeys * 2 * len(wanted), what)
+    seconds = [
+        histories
+        * max(seconds_of_history(building, motion.dt, motion.n) for building in grid.buildings)
+        * math.sqrt(max(1.0, float(grid.stiffness_scale.mean())))
+        for motion in motions
+    ]
+    refuse_long(sum(seconds), SWEEP_HOURS, what)
+    warn_of_units(
+        motions,
+        period=[building.bare_periods[0] for building in grid.buildings],
+        slip_force=grid.slip_force,
+        floor_mass=[building.floor_mass.min() for building in grid.buildings],
+    )
+    tasks = plan(histories, seconds, cells_per_task, "cells_per_task")
+    if (expected := sum(seconds) / cores()) > LONG:
+        log.warning(
+            "about %.0f min of work are held in memory until the end, and lost when it is stopped; sweep a "
+            "few buildings or records at a time, and save each",
+            expected / 60.0,
+        )
+    parts = fan_out(
+        partial(_run, grid, certify),
+        motions,
+        tasks,
+        each=1,
+        warm=partial(_warm, _with_devices(grid)),
+        workers=workers,
+        scheduler=scheduler,
+        client=client,
+        progress=progress,
+    )
+    return assemble(
+        _variables(grid, len(motions), tasks, parts, wanted),
+        _axes(grid),
+        BUILDING_CUBE,
+        motions,
+        title="Peak response of buildings with friction dampers",
+        parameters={
+            "buildings": {
+                name: building.parameters for name, building in zip(grid.names, grid.buildings, strict=True)
+            },
+            "stiffness_scale": grid.stiffness_scale,
+            "slip_scale": grid.slip_scale,
+            "certify": certify,
+            "outputs": list(wanted),
+        },
+        command="fdspec.sweep_buildings",
+    )
+
+
+def _ends(grid: BuildingGrid) -> tuple[int, int, int]:
+    """Where the histories of one record end: those of the cells, of braced buildings, of bare frames."""
+    n_b, n_k, n_s = grid.shape
+    cells = n_b * n_k * n_s
+    return cells, cells + n_b * n_k, cells + n_b * n_k + n_b
+
+
+def _frame(grid: BuildingGrid, history: int) -> Frame:
+    """Return the building of one history as the kernel takes it: its dampers scaled, held or taken away."""
+    from fdspec.kernels.frame import model as row
+
+    _, n_k, n_s = grid.shape
+    cells, braced, _ = _ends(grid)
+    column = history // n_s if history < cells else history - cells
+    b, k = divmod(column, n_k) if history < braced else (history - braced, 0)
+    given = grid.buildings[b].frame
+    properties = given.properties.copy()
+    if history < braced:
+        properties[row.BRACE_STIFFNESS] = grid.brace_stiffness[b, k]
+        properties[row.BRACE_DAMPING] = grid.brace_damping[b, k]
+    else:
+        properties[[row.BRACE_MASS, row.BRACE_STIFFNESS, row.BRACE_DAMPING]] = 0.0
+    if history < cells:
+        properties[row.SLIP_FORCE] = grid.slip_force[b, history % n_s]
+        properties[row.KINETIC_SLIP_FORCE] = grid.kinetic_slip_force[b, history % n_s]
+    else:
+        never = np.where(properties[row.BRACE_STIFFNESS] > 0.0, np.inf, 0.0)
+        properties[[row.SLIP_FORCE, row.KINETIC_SLIP_FORCE]] = never
+    return given._replace(properties=properties)
+
+
+def _building(grid: BuildingGrid, history: int) -> Building:
+    """Return the building of one cell, with its dampers scaled."""
+    _, n_k, n_s = grid.shape
+    column, s = divmod(history, n_s)
+    b, k = divmod(column, n_k)
+    return grid.buildings[b].with_changes(
+        brace_stiffness=grid.brace_stiffness[b, k],
+        brace_damping=grid.brace_damping[b, k],
+        slip_force=grid.slip_force[b, s],
+        kinetic_slip_force=grid.kinetic_slip_force[b, s],
+    )
+
+
+def _with_devices(grid: BuildingGrid) -> bool:
+    """Whether any building has devices: then all cells have the results that devices add."""
+    return any(building.has_devices for building in grid.buildings)
+
+
+def _warm(devices: bool) -> None:
+    import fdspec.engines.many_storeys
+
+    if devices:
+        import fdspec.engines.devices  # noqa: F401
+
+
+def _run(
+    grid: BuildingGrid, certify: bool, histories: IntArray, motion: GroundMotion
+) -> tuple[FloatArray, FloatArray]:
+    """Integrate some histories of a record: results by storey (m, rows, N) and totals (m, entries)."""
+    results = [_run_one(grid, certify, int(history), motion) for history in histories]
+    return np.stack([by_storey for by_storey, _ in results]), np.stack([totals for _, totals in results])
+
+
+def _run_one(
+    grid: BuildingGrid, certify: bool, history: int, motion: GroundMotion
+) -> tuple[FloatArray, FloatArray]:
+    """Integrate one history by the engine for its building: rows of `_rows` (rows, N), and TOTALS.
+
+    The limits that ride along are those of the elastic frame. Beside a building with devices, one without
+    is integrated by both engines: its peaks are those of the engine of frames, to the bit.
+    """
+    from fdspec.engines.many_storeys import peaks_of
+    from fdspec.kernels.frame.history import STOREY_RESULTS, TOTALS
+
+    cell = history < _ends(grid)[0]
+    if not _with_devices(grid):
+        return peaks_of(_frame(grid, history), motion, certify=certify and cell)
+    if not cell:
+        by_storey, totals = peaks_of(_frame(grid, history), motion, certify=False)
+        missing = np.zeros((len(_rows(grid)) - len(STOREY_RESULTS), grid.n_storeys))
+        return np.concatenate([by_storey, missing]), totals
+    from fdspec.engines.devices import peaks_of as peaks_with_devices
+
+    building = _building(grid, history)
+    storeys, whole = peaks_with_devices(building, motion)
+    table = np.stack([storeys[name] for name in _rows(grid)])
+    totals = np.array([whole[name] for name in TOTALS])
+    if not building.has_devices:
+        table[: len(STOREY_RESULTS)], totals = peaks_of(_frame(grid, history), motion, certify=certify)
+    return table, totals
+
+
+def _rows(grid: BuildingGrid) -> tuple[str, ...]:
+    """Return the names of what each storey has of its own."""
+    from fdspec.kernels.frame.history import STOREY_RESULTS
+
+    return (*STOREY_RESULTS, *_demands(grid))
+
+
+def _demands(grid: BuildingGrid) -> tuple[str, ...]:
+    """Return what only a cube with devices in it has of each storey."""
+    if not _with_devices(grid):
+        return ()
+    known = all(not np.isnan(building.storey_height).any() for building in grid.buildings)
+    return tuple(name for name in DEMANDS if known or name != "peak_drift_ratio")
+
+
+def _variables(
+    grid: BuildingGrid,
+    n_r: int,
+    tasks: Sequence[Task],
+    parts: Sequence[tuple[FloatArray, FloatArray]],
+    wanted: Sequence[str],
+) -> dict[str, NDArray[np.generic]]:
+    """Put what the tasks returned where it stands in the cube."""
+    from fdspec.kernels.frame.history import TOTALS
+
+    rows = _rows(grid)
+    cells, braced, bare = _ends(grid)
+    histories = 1 + max(int(task.items.max()) for task in tasks)
+    by_storey = np.empty((len(rows), n_r, histories, grid.n_storeys))
+    totals = np.empty((len(TOTALS), n_r, histories))
+    for (r, items), (of_storeys, of_all) in zip(tasks, parts, strict=True):
+        by_storey[:, r, items] = of_storeys.transpose(1, 0, 2)
+        totals[:, r, items] = of_all.T
+    results = dict(zip(rows, by_storey, strict=True)) | dict(zip(TOTALS, totals, strict=True))
+    results["peak_base_shear"] = results["peak_storey_shear"][..., 0]
+    results["residual_drift"] = np.diff(results["residual_displacement"], prepend=0.0)
+    acceleration = results["peak_acceleration"]
+    limits = {
+        "elastic_acceleration": acceleration[:, braced:bare],
+        "braced_acceleration": acceleration[:, cells:braced],
+    }
+    n_b, n_k, n_s = grid.shape
+    lengths = {"record": n_r, "building": n_b, "stiffness_scale": n_k, "slip_scale": n_s}
+    lengths["storey"] = grid.n_storeys
+    variables: dict[str, NDArray[np.generic]] = {}
+    for name in wanted:
+        variable = BUILDING_CUBE[name]
+        values = limits[name] if name in limits else results[name][:, :cells]
+        shape = [lengths[dim] for dim in variable.dims]
+        variables[name] = values.reshape(shape).astype(variable.dtype)
+    return variables
+
+
+def _axes(grid: BuildingGrid) -> dict[str, object]:
+    return {
+        "building": list(grid.names),
+        "stiffness_scale": grid.stiffness_scale,
+        "slip_scale": grid.slip_scale,
+        "storey": np.arange(1, grid.n_storeys + 1),
+        "slip_force": grid.slip_force,
+        "kinetic_slip_force": grid.kinetic_slip_force,
+        "brace_stiffness": grid.brace_stiffness,
+        "bare_period": [float(building.bare_periods[0]) for building in grid.buildings],
+        "braced_period": grid.braced_period,
+    }
