@@ -13,6 +13,8 @@ from fdspec.records.units import acceleration_unit, to_si
 
 NAME: Final = "PEER AT2"
 FIRST_VALUES: Final = 5
+MAX_MOVED: Final = 9
+"""The last line in which PEER's sentence is looked for."""
 
 _QUANTITY: Final = re.compile(
     r"(ACCELERATION|VELOCITY|DISPLACEMENT) TIME (?:HISTORY|SERIES) IN UNITS OF ([^.\s,]+(?:\.\d+)?)",
@@ -25,13 +27,35 @@ _COUNT: Final = re.compile(r"\d{1,12}", re.ASCII)
 
 
 def recognises(text: TextFile) -> bool:
-    """Say whether the file is PEER's, from its third line."""
-    if len(text.lines) < 3 or _QUANTITY.match(text.head(3).strip()) is None:
+    """Say whether the file is PEER's: by the sentence of its third line, or by one that damage has moved.
+
+    Where the sentence stands elsewhere, or nothing below it is PEER's, but the header counts the values, the
+    file is one of rows under words.
+    """
+    line = _sentence(text)
+    if line is None:
         return False
-    if _PUBLISHER.search(text.head(1)) or len(text.lines) < 4:
+    if line == 3 and (_PUBLISHER.search(text.head(1)) or len(text.lines) < 4 or _has_both(text.head(4))):
         return True
-    stated = statements([(4, text.head(4))])
-    words = text.head(4).split()
+    counts = statements(enumerate(text.heads(1, MAX_MOVED), start=1)).counts
+    return not counts and any(_has_values(head) for head in text.heads(line + 1, MAX_MOVED))
+
+
+def _sentence(text: TextFile) -> int | None:
+    heads = text.heads(1, MAX_MOVED)
+    return next((k for k, head in enumerate(heads, start=1) if _QUANTITY.match(head.strip())), None)
+
+
+def _has_values(line: str) -> bool:
+    """Say whether a line is a row of several numbers."""
+    words = line.split()
+    return len(words) > 2 and parse_number(words[0]) is not None
+
+
+def _has_both(line: str) -> bool:
+    """Say whether a line has count and step, in words or as two numbers alone."""
+    stated = statements([(4, line)])
+    words = line.split()
     numbers = len(words) == 2 and sum(_COUNT.fullmatch(word) is not None for word in words) == 1
     return (numbers and all(parse_number(word) is not None for word in words)) or bool(
         stated.counts and stated.steps
@@ -41,6 +65,8 @@ def recognises(text: TextFile) -> bool:
 def read(text: TextFile) -> tuple[Channel, ...]:
     """Read the one channel of the file; the number of values must be the header's."""
     third = text.line(3, "the line that names quantity and units")
+    if (line := _sentence(text)) != 3:
+        raise text.refusal(line, "PEER's third line stands here, and no count of the values: expected NPTS")
     quantity = _QUANTITY.match(third.strip())
     unit = acceleration_unit(quantity[2]) if quantity else None
     if quantity is None or quantity[1].upper() != "ACCELERATION" or unit is None:

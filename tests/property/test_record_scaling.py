@@ -1,8 +1,8 @@
 """Long files: every reader's work grows as their length does, and its memory stays within ten times of it.
 
 Work is counted in calls, not timed, so that the machine's other business does not matter. What a search does
-inside is not counted; each works on the head of a line, which is bounded, and their time has a bound that only
-a search whose time grows with the square of its text misses.
+inside is not counted; each works on the head of a line, which is bounded, and their time has a bound that
+only a search whose time grows with the square of its text misses.
 """
 
 import sys
