@@ -23,6 +23,7 @@ _LOOK_UP: Final = 5
 _RULE: Final = re.compile(r"[\s\-=_*#+|.~]*")
 _BRACKET_ENDS: Final = re.compile(r"[^()\[\]]{0,80}[(\[][^()\[\]]{0,40}[)\]]")
 _ABSCISSAE: Final = frozenset({words.TIME, words.PERIOD, words.FREQUENCY})
+_LIKE_ROW: Final = re.compile(r"\s*(?:[+-]?(?:[\d.]|nan\b|inf\b)|\*\*\*+(?!\s*\w))", re.IGNORECASE)
 _EXPLICIT: Final = frozenset(
     {
         words.TIME, words.ACCELERATION, words.VELOCITY, words.DISPLACEMENT, words.PERIOD, words.FREQUENCY,
@@ -88,6 +89,19 @@ def _refuse_lone_rows(text: TextFile, start: int, first: int, table: Table) -> N
                 number,
                 f"{table.width} numbers as in the rows below line {first}, apart from them: expected words",
             )
+        if found is None and _LIKE_ROW.match(text.head(number)):
+            _refuse_damaged_row(text, number, table)
+
+
+def _refuse_damaged_row(text: TextFile, number: int, table: Table) -> None:
+    """Refuse a line that is a row but for a cell or two, where words are expected."""
+    line = text.head(number)
+    cells = [cell for cell in table.dialect.words(line) if cell]
+    odd = [cell for cell in cells if parse_number(cell) is None]
+    few = 2 * len(odd) <= len(cells) or table.width == len(cells) == 1
+    said = statements([(number, line)])
+    if odd and few and len(cells) >= table.width and not (said.counts or said.steps):
+        raise text.refusal(number, f"expected a finite number, found {odd[0][:40]!r}")
 
 
 def _numeric_lines(text: TextFile, first: int, dialect: Dialect) -> int:

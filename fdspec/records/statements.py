@@ -67,6 +67,7 @@ _KEY_COUNT: Final = re.compile(
 _BARE_COUNT: Final = re.compile(
     rf"(?<![\w]){_BARE_COUNT_KEY}\s{{0,3}}[:=]\s{{0,12}}(?P<n>\d{{1,12}})(?!\.\d|\w)"
 )
+_COUNT_WITHOUT_NUMBER: Final = re.compile(rf"(?<![\w]){_COUNT_KEY}\s{{0,3}}[:=]\s{{0,12}}(?:,|;|[a-z]|$)")
 _COUNT_NOUN: Final = re.compile(
     r"(?<![\w.+-])(?P<n>\d{1,12})\s{1,3}(?:(?:data|accelerogram|acceleration|accel|acc|record|time|discrete|digiti[sz]ed|"
     rf"equally[ -]spaced|uncorrected|corrected)\s){{0,2}}{_NOUN}\b"
@@ -201,6 +202,7 @@ def _read_counts(found: Statements, number: int, text: str) -> None:
             found.counts.append((number, int(count), both[0].strip()))
             found.steps.append((number, _positive(step), both[0].strip()))
         return
+    found.counts += [(number, 0, match[0].strip()) for match in _COUNT_WITHOUT_NUMBER.finditer(text)]
     taken: list[tuple[int, int]] = []
     for pattern in (_KEY_COUNT, _COUNT_NOUN, _BARE_COUNT):
         for match in pattern.finditer(text):
