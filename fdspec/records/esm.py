@@ -12,12 +12,16 @@ from fdspec.records.units import acceleration_unit, to_si
 
 NAME: Final = "ESM or ITACA ASCII"
 MAX_HEADER: Final = 150
+KEYS: Final = frozenset(
+    {"EVENT_NAME", "STATION_CODE", "SAMPLING_INTERVAL_S", "NDATA", "STREAM", "UNITS", "DATA_TYPE"}
+)
+"""Half of them tell the format: a header that lost one must not pass for rows under words."""
 
 
 def recognises(text: TextFile) -> bool:
     """Say whether the keys of DYNA stand at the top, in whatever order."""
     keys = {found[0].upper() for line in text.heads(1, MAX_HEADER) if (found := split_key(line))}
-    return {"SAMPLING_INTERVAL_S", "NDATA", "UNITS"} <= keys or {"SAMPLING_INTERVAL_S", "EVENT_NAME"} <= keys
+    return len(keys & KEYS) >= len(KEYS) // 2
 
 
 def read(text: TextFile) -> tuple[Channel, ...]:
