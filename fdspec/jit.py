@@ -56,7 +56,7 @@ def record_of(cls: type) -> types.Type:
 def source_key() -> str:
     """Name of the kernels' source and of the compiler: changes when any of their files does."""
     digest = hashlib.sha256(numba.__version__.encode())
-    for path in sorted([*KERNELS.glob("*.py"), Path(__file__)]):
+    for path in sorted([*KERNELS.rglob("*.py"), Path(__file__)]):
         digest.update(path.name.encode())
         digest.update(path.read_bytes())
     return digest.hexdigest()[:16]

@@ -1,0 +1,106 @@
+"""The state at the end of what is taken of a step, and the work of the ground on it."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from fdspec.jit import inner, wide
+from fdspec.kernels.frame_batch.eight import WIDTH, fma8, load, splat, store
+from fdspec.kernels.frame_batch.layout import (
+    FRACTION,
+    GROUND,
+    INPUT,
+    LENGTH,
+    LOOSE_MASS,
+    MASS,
+    RISE,
+    SLIDES,
+    of,
+    term,
+)
+from fdspec.kernels.taylor import DISPLACEMENT, OFFSET, SLIDING, TERMS, VELOCITY
+
+_k = np.arange(TERMS + 1.0)
+ONCE: Final = 1.0 / (_k + 1.0)
+TWICE: Final = 1.0 / ((_k + 1.0) * (_k + 2.0))
+THRICE: Final = 1.0 / ((_k + 1.0) * (_k + 2.0) * (_k + 3.0))
+"""Factors that integrate the power k once, twice and three times from 0 to 1."""
+
+
+@inner
+def advance(p, at, size, orders):
+    """Fill the block ``end`` with the state at the fraction FRACTION of the steps."""
+    wide()
+    model = at.model
+    x = load(p, FRACTION * WIDTH)
+    t = x * load(p, LENGTH * WIDTH)
+    power = splat(1.0)
+    for k in range(orders):
+        store(p, at.weights + 2 * k * WIDTH, power * splat(ONCE[k]))
+        store(p, at.weights + (2 * k + 1) * WIDTH, power * splat(TWICE[k]))
+        power = power * x
+    ground = load(p, GROUND * WIDTH)
+    rise = load(p, RISE * WIDTH) * x
+    shake = fma8(rise, splat(0.5), ground)
+    shift = fma8(rise, splat(1.0 / 6.0), ground * splat(0.5))
+    for i in range(size):
+        speed = splat(0.0) - shake
+        place = splat(0.0) - shift
+        slide = splat(0.0)
+        slip = splat(0.0)
+        for k in range(orders):
+            once = load(p, at.weights + 2 * k * WIDTH)
+            twice = load(p, at.weights + (2 * k + 1) * WIDTH)
+            inertia = load(p, term(at.inertia, i, k))
+            second = load(p, term(at.second, i, k))
+            speed = fma8(inertia, once, speed)
+            place = fma8(inertia, twice, place)
+            slide = fma8(second, once, slide)
+            slip = fma8(second, twice, slip)
+        slides = load(p, of(model, SLIDES, size, i)) * t
+        u = load(p, of(at.state, DISPLACEMENT, size, i))
+        v = load(p, of(at.state, VELOCITY, size, i))
+        o = load(p, of(at.state, OFFSET, size, i))
+        z = load(p, of(at.state, SLIDING, size, i))
+        store(p, of(at.end, DISPLACEMENT, size, i), fma8(t, fma8(t, place, v), u))
+        store(p, of(at.end, VELOCITY, size, i), fma8(t, speed, v))
+        store(p, of(at.end, OFFSET, size, i), fma8(t, fma8(slides, slip, z), o))
+        store(p, of(at.end, SLIDING, size, i), fma8(slides, slide, z))
+
+
+@inner
+def add_input(p, at, size, orders):
+    """Add the work of the ground acceleration a on what is taken of the steps.
+
+    With D = sum m u of all masses since the step's start it is - the integral of a D', which is
+    - a D at the end and what the rise of a times D makes of it: D'' is the series of the block ``thrust``.
+    """
+    wide()
+    x = load(p, FRACTION * WIDTH)
+    t = x * load(p, LENGTH * WIDTH)
+    ground = load(p, GROUND * WIDTH)
+    rise = load(p, RISE * WIDTH) * x
+    mass = splat(0.0)
+    momentum = splat(0.0)
+    for i in range(size):
+        all_of_it = load(p, of(at.model, MASS, size, i))
+        loose = load(p, of(at.model, LOOSE_MASS, size, i))
+        mass = mass + all_of_it
+        momentum = fma8(all_of_it, load(p, of(at.state, VELOCITY, size, i)), momentum)
+        momentum = momentum - loose * load(p, of(at.state, SLIDING, size, i))
+    twice = splat(0.0)
+    thrice = splat(0.0)
+    power = splat(1.0)
+    for k in range(orders):
+        thrust = load(p, at.thrust + k * WIDTH) * power
+        twice = fma8(thrust, splat(TWICE[k]), twice)
+        thrice = fma8(thrust, splat(THRICE[k]), thrice)
+        power = power * x
+    twice = twice - mass * fma8(rise, splat(1.0 / 6.0), ground * splat(0.5))
+    thrice = thrice - mass * fma8(rise, splat(1.0 / 24.0), ground * splat(1.0 / 6.0))
+    moved = fma8(t, twice, momentum) * t
+    swept = fma8(t, thrice, momentum * splat(0.5)) * t
+    work = rise * swept - (ground + rise) * moved
+    store(p, INPUT * WIDTH, load(p, INPUT * WIDTH) + work)

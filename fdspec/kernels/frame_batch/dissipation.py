@@ -1,0 +1,141 @@
+"""Work into the dashpots of eight frames: quadrature of their power over what is taken of the steps.
+
+Floors move smoothly over a step of a few radians of their braces; where no brace has a dashpot, five nodes
+are enough.
+"""
+
+from __future__ import annotations
+
+from fdspec.jit import inner, wide
+from fdspec.kernels.frame_batch.advance import ONCE
+from fdspec.kernels.frame_batch.eight import WIDTH, fma8, load, splat, store
+from fdspec.kernels.frame_batch.layout import (
+    COLUMN_DASHPOTS,
+    DASHPOT,
+    FRACTION,
+    GROUND,
+    GROUND_DASHPOTS,
+    LENGTH,
+    RISE,
+    SLIDES,
+    VISCOUS,
+    of,
+    term,
+)
+from fdspec.kernels.quadrature import FEW_NODES, FEW_WEIGHTS, NODES, WEIGHTS
+from fdspec.kernels.taylor import SLIDING, VELOCITY
+
+FIVE = len(FEW_NODES)
+
+
+@inner
+def floor_speeds(p, at, size, orders, nodes, first):
+    """Put the floors' velocities at five nodes, from ``first`` on, into the block ``speeds``."""
+    wide()
+    x = load(p, FRACTION * WIDTH)
+    ground = splat(0.0) - load(p, GROUND * WIDTH)
+    rise = splat(-0.5) * load(p, RISE * WIDTH)
+    for i in range(size):
+        put_speeds(p, at.inertia, i, size, orders, nodes, first, x, ground, rise, load(p, LENGTH * WIDTH),
+                   load(p, of(at.state, VELOCITY, size, i)), at.speeds)  # fmt: skip
+
+
+@inner
+def sliding_speeds(p, at, size, orders, nodes, first):
+    """Put the sliding velocities at five nodes into the block ``slides``."""
+    wide()
+    x = load(p, FRACTION * WIDTH)
+    nothing = splat(0.0)
+    for i in range(size):
+        h = load(p, LENGTH * WIDTH) * load(p, of(at.model, SLIDES, size, i))
+        put_speeds(p, at.second, i, size, orders, nodes, first, x, nothing, nothing, h,
+                   load(p, of(at.state, SLIDING, size, i)), at.slides)  # fmt: skip
+
+
+@inner
+def put_speeds(p, series, i, size, orders, nodes, first, x, ground, rise, h, speed, to):
+    """Integrate a storey's acceleration up to five nodes: its series, and ground + rise x beside it."""
+    wide()
+    a = x * splat(nodes[first])
+    b = x * splat(nodes[first + 1])
+    c = x * splat(nodes[first + 2])
+    d = x * splat(nodes[first + 3])
+    e = x * splat(nodes[first + 4])
+    at_a = splat(0.0)
+    at_b = splat(0.0)
+    at_c = splat(0.0)
+    at_d = splat(0.0)
+    at_e = splat(0.0)
+    for k in range(orders - 1, -1, -1):
+        rate = load(p, term(series, i, k)) * splat(ONCE[k])
+        at_a = fma8(at_a, a, rate)
+        at_b = fma8(at_b, b, rate)
+        at_c = fma8(at_c, c, rate)
+        at_d = fma8(at_d, d, rate)
+        at_e = fma8(at_e, e, rate)
+    place = to + (first * size + i) * WIDTH
+    row = size * WIDTH
+    store(p, place, fma8(at_a + fma8(rise, a, ground), a * h, speed))
+    store(p, place + row, fma8(at_b + fma8(rise, b, ground), b * h, speed))
+    store(p, place + 2 * row, fma8(at_c + fma8(rise, c, ground), c * h, speed))
+    store(p, place + 3 * row, fma8(at_d + fma8(rise, d, ground), d * h, speed))
+    store(p, place + 4 * row, fma8(at_e + fma8(rise, e, ground), e * h, speed))
+
+
+@inner
+def power_at(p, at, size, node, dense_damping, damped, grounded, loose):
+    """Power of all dashpots at a node, W."""
+    wide()
+    row = at.speeds + node * size * WIDTH
+    slides = at.slides + node * size * WIDTH
+    power = splat(0.0)
+    below = splat(0.0)
+    for i in range(size):
+        speed = load(p, row + i * WIDTH)
+        if damped:
+            drift = speed - below
+            below = speed
+            power = fma8(load(p, of(at.model, COLUMN_DASHPOTS, size, i)), drift * drift, power)
+            if loose:
+                brace = drift - load(p, slides + i * WIDTH)
+                power = fma8(load(p, of(at.model, DASHPOT, size, i)), brace * brace, power)
+        if grounded:
+            power = fma8(load(p, of(at.model, GROUND_DASHPOTS, size, i)), speed * speed, power)
+        if dense_damping:
+            one = splat(0.0)
+            two = splat(0.0)
+            j = 0
+            while j + 1 < i:
+                one = fma8(load(p, at.damping + (i * size + j) * WIDTH), load(p, row + j * WIDTH), one)
+                two = fma8(load(p, at.damping + (i * size + j + 1) * WIDTH), load(p, row + (j + 1) * WIDTH), two)
+                j += 2
+            if j < i:
+                one = fma8(load(p, at.damping + (i * size + j) * WIDTH), load(p, row + j * WIDTH), one)
+            one = splat(2.0) * (one + two)
+            one = fma8(load(p, at.damping + (i * size + i) * WIDTH), speed, one)
+            power = fma8(one, speed, power)
+    return power
+
+
+@inner
+def add_dissipation(p, at, size, orders, dense_damping, damped, grounded, loose):
+    """Add the work into dashpots on what is taken of the steps.
+
+    loose: whether any brace has a dashpot; the other arguments are those of `expand`.
+    """
+    wide()
+    total = splat(0.0)
+    if loose:
+        for first in range(0, len(NODES), FIVE):
+            floor_speeds(p, at, size, orders, NODES, first)
+            sliding_speeds(p, at, size, orders, NODES, first)
+        for node in range(len(NODES)):
+            power = power_at(p, at, size, node, dense_damping, damped, grounded, loose)
+            total = fma8(splat(WEIGHTS[node]), power, total)
+    else:
+        floor_speeds(p, at, size, orders, FEW_NODES, 0)
+        for node in range(FIVE):
+            power = power_at(p, at, size, node, dense_damping, damped, grounded, loose)
+            total = fma8(splat(FEW_WEIGHTS[node]), power, total)
+    work = load(p, FRACTION * WIDTH) * load(p, LENGTH * WIDTH) * total
+    store(p, VISCOUS * WIDTH, load(p, VISCOUS * WIDTH) + work)

@@ -1,0 +1,171 @@
+"""One lane of the eight: a history is put into it, changes its phase, and is taken out."""
+
+from __future__ import annotations
+
+import math
+
+from fdspec.jit import inner
+from fdspec.kernels import frame as row
+from fdspec.kernels.frame import NO_BRACE, fastest_rate, held_rates, kind_of, prepare, rate_of, set_phase
+from fdspec.kernels.frame_batch.eight import WIDTH
+from fdspec.kernels.frame_batch.layout import (
+    COLUMN_DASHPOTS,
+    COLUMNS,
+    COMPLIANCE,
+    DASHPOT,
+    FRICTION,
+    GROUND_DASHPOTS,
+    GROUND_SPRINGS,
+    HELD,
+    INPUT,
+    LIMIT,
+    LOOSE_MASS,
+    MASS,
+    OF_BRACE,
+    OF_FLOOR,
+    OVER_BRACE,
+    PEAKS,
+    RATE,
+    SIGN,
+    SLIDES,
+    SLOWNESS,
+    SPECIAL,
+    SPRING,
+    TAU,
+    VISCOUS,
+    of,
+)
+from fdspec.kernels.frame_energy import stored_energy
+from fdspec.kernels.frame_phase import RELEASE, TALLY_ROWS, begin_slip, travel_so_far
+from fdspec.kernels.taylor import DISPLACEMENT, OFFSET
+from fdspec.kernels.types import NON_FINITE_STATE, OK, STICK
+
+
+@inner
+def put_phase(p, at, size, lane, frame, model, kind, phase, i):
+    """Bring the lane's numbers of storey i in line with its phase."""
+    set_phase(frame, model, phase, i)
+    sticks = phase[i] == STICK
+    floor = frame[row.FLOOR_MASS, i]
+    brace = frame[row.BRACE_MASS, i]
+    p[of(at.model, COMPLIANCE, size, i) + lane] = model[row.COMPLIANCE, i]
+    p[of(at.model, HELD, size, i) + lane] = model[row.HELD, i]
+    p[of(at.model, FRICTION, size, i) + lane] = model[row.FRICTION, i]
+    p[of(at.model, OF_FLOOR, size, i) + lane] = model[row.FLOOR_SHARE, i] if sticks else 1.0 / floor
+    p[of(at.model, OF_BRACE, size, i) + lane] = model[row.BRACE_SHARE, i] if sticks else 1.0 / brace
+    p[of(at.model, SLIDES, size, i) + lane] = 0.0 if sticks else 1.0
+    p[of(at.model, SIGN, size, i) + lane] = phase[i]
+    p[of(at.model, LOOSE_MASS, size, i) + lane] = 0.0 if sticks else brace
+
+
+@inner
+def put_history(p, at, size, lane, frame, stiffness, damping, model, kind, phase, fresh, touching, state, tally):
+    """Set a lane to a history at rest at t = 0; a damper without friction slides from the start.
+
+    Return the rate (1/s) with every damper stuck.
+    """
+    held = held_rates(frame, stiffness, damping)
+    prepare(frame, model, held)
+    for r in range(4):
+        for i in range(size):
+            state[r, i] = 0.0
+            p[of(at.state, r, size, i) + lane] = 0.0
+    for r in range(PEAKS):
+        for i in range(size):
+            p[of(at.peaks, r, size, i) + lane] = 0.0
+    for r in range(TALLY_ROWS):
+        for i in range(size):
+            tally[r, i] = 0.0
+    for i in range(size):
+        kind[i] = kind_of(frame, i)
+        phase[i] = STICK
+        fresh[i] = 0
+        touching[i] = 0
+        if kind[i] != NO_BRACE and frame[row.SLIP_FORCE, i] == 0.0:
+            begin_slip(frame, kind, phase, fresh, state, tally, i, 1)
+            fresh[i] = 0
+        brace = frame[row.BRACE_MASS, i]
+        p[of(at.model, SPRING, size, i) + lane] = frame[row.BRACE_STIFFNESS, i]
+        p[of(at.model, DASHPOT, size, i) + lane] = frame[row.BRACE_DAMPING, i]
+        p[of(at.model, COLUMNS, size, i) + lane] = frame[row.STOREY_STIFFNESS, i]
+        p[of(at.model, COLUMN_DASHPOTS, size, i) + lane] = frame[row.STOREY_DAMPING, i]
+        p[of(at.model, GROUND_SPRINGS, size, i) + lane] = frame[row.GROUND_STIFFNESS, i]
+        p[of(at.model, GROUND_DASHPOTS, size, i) + lane] = frame[row.GROUND_DAMPING, i]
+        p[of(at.model, MASS, size, i) + lane] = frame[row.FLOOR_MASS, i] + brace
+        p[of(at.model, LIMIT, size, i) + lane] = math.inf if kind[i] == NO_BRACE else frame[row.SLIP_FORCE, i]
+        p[of(at.model, SPECIAL, size, i) + lane] = 0.0
+        p[of(at.model, OVER_BRACE, size, i) + lane] = 1.0 / brace if brace > 0.0 else 0.0
+        p[of(at.model, SLOWNESS, size, i) + lane] = model[row.SLOWNESS, i] if brace > 0.0 else 0.0
+        put_phase(p, at, size, lane, frame, model, kind, phase, i)
+    for i in range(stiffness.shape[0]):
+        for j in range(size):
+            p[at.stiffness + (i * size + j) * WIDTH + lane] = stiffness[i, j]
+    for i in range(damping.shape[0]):
+        for j in range(size):
+            p[at.damping + (i * size + j) * WIDTH + lane] = damping[i, j]
+    held_rate = rate_of(held[0], held[1])
+    p[TAU * WIDTH + lane] = 0.0
+    p[INPUT * WIDTH + lane] = 0.0
+    p[VISCOUS * WIDTH + lane] = 0.0
+    p[RATE * WIDTH + lane] = fastest_rate(model, phase, held_rate)
+    return held_rate
+
+
+@inner
+def take_state(p, block, size, lane, state):
+    """Take a lane's state from a block into (4, N)."""
+    for r in range(4):
+        for i in range(size):
+            state[r, i] = p[of(block, r, size, i) + lane]
+
+
+@inner
+def put_state(p, block, size, lane, state):
+    """Put a state (4, N) into a lane of a block."""
+    for r in range(4):
+        for i in range(size):
+            p[of(block, r, size, i) + lane] = state[r, i]
+
+
+@inner
+def is_finite(p, block, size, lane):
+    """Whether a lane's displacements and velocities are numbers."""
+    for i in range(2 * size):
+        if not math.isfinite(p[block + i * WIDTH + lane]):
+            return False
+    return True
+
+
+@inner
+def finish(p, at, size, lane, frame, stiffness, phase, state, tally, transitions, status, certify, by_storey,
+           totals):  # fmt: skip
+    """Fill a history's results, as `fdspec.kernels.mdof.integrate` does, from the block ``end``."""
+    take_state(p, at.end, size, lane, state)
+    friction = 0.0
+    for r in range(PEAKS):
+        for i in range(size):
+            by_storey[r, i] = p[of(at.peaks, r, size, i) + lane]
+    for i in range(size):
+        travel = travel_so_far(phase, state[OFFSET, i], tally, i)
+        work = tally[RELEASE, i]
+        if travel > 0.0:
+            work += frame[row.KINETIC_SLIP_FORCE, i] * travel
+        friction += work
+        by_storey[6, i] = state[DISPLACEMENT, i]
+        by_storey[7, i] = state[DISPLACEMENT, i] - state[OFFSET, i]
+        by_storey[8, i] = travel
+        by_storey[10, i] = work
+    work_in = p[INPUT * WIDTH + lane]
+    viscous = p[VISCOUS * WIDTH + lane]
+    error = 0.0
+    if certify and abs(work_in) > 0.0:
+        now = stored_energy(frame, stiffness, state)
+        error = abs(work_in - now - viscous - friction) / abs(work_in)
+    if status == OK and not math.isfinite(friction + viscous + work_in + error):
+        status = NON_FINITE_STATE
+    totals[0] = transitions
+    totals[1] = friction
+    totals[2] = viscous
+    totals[3] = work_in
+    totals[4] = error
+    totals[5] = status
