@@ -7,17 +7,21 @@ from typing import Final
 import numpy as np
 
 from fdspec.jit import inner, wide
-from fdspec.kernels.frame_batch.eight import WIDTH, fma8, load, splat, store
+from fdspec.kernels.frame_batch.eight import WIDTH, fma8, less8, load, splat, store
 from fdspec.kernels.frame_batch.layout import (
+    END,
     FRACTION,
     GROUND,
+    INERTIA,
     INPUT,
     LENGTH,
     LOOSE_MASS,
     MASS,
     RISE,
+    SECOND,
     SLIDES,
-    of,
+    START,
+    row,
     term,
 )
 from fdspec.kernels.taylor import DISPLACEMENT, OFFSET, SLIDING, TERMS, VELOCITY
@@ -31,9 +35,8 @@ THRICE: Final = 1.0 / ((_k + 1.0) * (_k + 2.0) * (_k + 3.0))
 
 @inner
 def advance(p, at, size, orders):
-    """Fill the block ``end`` with the state at the fraction FRACTION of the steps."""
+    """Fill the rows END with the state at the fraction FRACTION of the steps."""
     wide()
-    model = at.model
     x = load(p, FRACTION * WIDTH)
     t = x * load(p, LENGTH * WIDTH)
     power = splat(1.0)
@@ -53,21 +56,21 @@ def advance(p, at, size, orders):
         for k in range(orders):
             once = load(p, at.weights + 2 * k * WIDTH)
             twice = load(p, at.weights + (2 * k + 1) * WIDTH)
-            inertia = load(p, term(at.inertia, i, k))
-            second = load(p, term(at.second, i, k))
+            inertia = load(p, term(at, INERTIA, i, k))
+            second = load(p, term(at, SECOND, i, k))
             speed = fma8(inertia, once, speed)
             place = fma8(inertia, twice, place)
             slide = fma8(second, once, slide)
             slip = fma8(second, twice, slip)
-        slides = load(p, of(model, SLIDES, size, i)) * t
-        u = load(p, of(at.state, DISPLACEMENT, size, i))
-        v = load(p, of(at.state, VELOCITY, size, i))
-        o = load(p, of(at.state, OFFSET, size, i))
-        z = load(p, of(at.state, SLIDING, size, i))
-        store(p, of(at.end, DISPLACEMENT, size, i), fma8(t, fma8(t, place, v), u))
-        store(p, of(at.end, VELOCITY, size, i), fma8(t, speed, v))
-        store(p, of(at.end, OFFSET, size, i), fma8(t, fma8(slides, slip, z), o))
-        store(p, of(at.end, SLIDING, size, i), fma8(slides, slide, z))
+        slides = load(p, row(SLIDES, i)) * t
+        u = load(p, row(START + DISPLACEMENT, i))
+        v = load(p, row(START + VELOCITY, i))
+        o = load(p, row(START + OFFSET, i))
+        z = load(p, row(START + SLIDING, i))
+        store(p, row(END + DISPLACEMENT, i), fma8(t, fma8(t, place, v), u))
+        store(p, row(END + VELOCITY, i), fma8(t, speed, v))
+        store(p, row(END + OFFSET, i), fma8(t, fma8(slides, slip, z), o))
+        store(p, row(END + SLIDING, i), fma8(slides, slide, z))
 
 
 @inner
@@ -85,11 +88,11 @@ def add_input(p, at, size, orders):
     mass = splat(0.0)
     momentum = splat(0.0)
     for i in range(size):
-        all_of_it = load(p, of(at.model, MASS, size, i))
-        loose = load(p, of(at.model, LOOSE_MASS, size, i))
-        mass = mass + all_of_it
-        momentum = fma8(all_of_it, load(p, of(at.state, VELOCITY, size, i)), momentum)
-        momentum = momentum - loose * load(p, of(at.state, SLIDING, size, i))
+        whole = load(p, row(MASS, i))
+        loose = load(p, row(LOOSE_MASS, i))
+        mass = mass + whole
+        momentum = fma8(whole, load(p, row(START + VELOCITY, i)), momentum)
+        momentum = less8(momentum, loose, load(p, row(START + SLIDING, i)))
     twice = splat(0.0)
     thrice = splat(0.0)
     power = splat(1.0)

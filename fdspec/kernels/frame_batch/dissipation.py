@@ -15,11 +15,14 @@ from fdspec.kernels.frame_batch.layout import (
     FRACTION,
     GROUND,
     GROUND_DASHPOTS,
+    INERTIA,
     LENGTH,
     RISE,
+    SECOND,
     SLIDES,
+    START,
     VISCOUS,
-    of,
+    row,
     term,
 )
 from fdspec.kernels.quadrature import FEW_NODES, FEW_WEIGHTS, NODES, WEIGHTS
@@ -36,8 +39,8 @@ def floor_speeds(p, at, size, orders, nodes, first):
     ground = splat(0.0) - load(p, GROUND * WIDTH)
     rise = splat(-0.5) * load(p, RISE * WIDTH)
     for i in range(size):
-        put_speeds(p, at.inertia, i, size, orders, nodes, first, x, ground, rise, load(p, LENGTH * WIDTH),
-                   load(p, of(at.state, VELOCITY, size, i)), at.speeds)  # fmt: skip
+        put_speeds(p, at, INERTIA, i, size, orders, nodes, first, x, ground, rise, load(p, LENGTH * WIDTH),
+                   load(p, row(START + VELOCITY, i)), at.speeds)  # fmt: skip
 
 
 @inner
@@ -47,13 +50,13 @@ def sliding_speeds(p, at, size, orders, nodes, first):
     x = load(p, FRACTION * WIDTH)
     nothing = splat(0.0)
     for i in range(size):
-        h = load(p, LENGTH * WIDTH) * load(p, of(at.model, SLIDES, size, i))
-        put_speeds(p, at.second, i, size, orders, nodes, first, x, nothing, nothing, h,
-                   load(p, of(at.state, SLIDING, size, i)), at.slides)  # fmt: skip
+        h = load(p, LENGTH * WIDTH) * load(p, row(SLIDES, i))
+        put_speeds(p, at, SECOND, i, size, orders, nodes, first, x, nothing, nothing, h,
+                   load(p, row(START + SLIDING, i)), at.slides)  # fmt: skip
 
 
 @inner
-def put_speeds(p, series, i, size, orders, nodes, first, x, ground, rise, h, speed, to):
+def put_speeds(p, at, series, i, size, orders, nodes, first, x, ground, rise, h, speed, to):
     """Integrate a storey's acceleration up to five nodes: its series, and ground + rise x beside it."""
     wide()
     a = x * splat(nodes[first])
@@ -67,50 +70,50 @@ def put_speeds(p, series, i, size, orders, nodes, first, x, ground, rise, h, spe
     at_d = splat(0.0)
     at_e = splat(0.0)
     for k in range(orders - 1, -1, -1):
-        rate = load(p, term(series, i, k)) * splat(ONCE[k])
+        rate = load(p, term(at, series, i, k)) * splat(ONCE[k])
         at_a = fma8(at_a, a, rate)
         at_b = fma8(at_b, b, rate)
         at_c = fma8(at_c, c, rate)
         at_d = fma8(at_d, d, rate)
         at_e = fma8(at_e, e, rate)
     place = to + (first * size + i) * WIDTH
-    row = size * WIDTH
+    apart = size * WIDTH
     store(p, place, fma8(at_a + fma8(rise, a, ground), a * h, speed))
-    store(p, place + row, fma8(at_b + fma8(rise, b, ground), b * h, speed))
-    store(p, place + 2 * row, fma8(at_c + fma8(rise, c, ground), c * h, speed))
-    store(p, place + 3 * row, fma8(at_d + fma8(rise, d, ground), d * h, speed))
-    store(p, place + 4 * row, fma8(at_e + fma8(rise, e, ground), e * h, speed))
+    store(p, place + apart, fma8(at_b + fma8(rise, b, ground), b * h, speed))
+    store(p, place + 2 * apart, fma8(at_c + fma8(rise, c, ground), c * h, speed))
+    store(p, place + 3 * apart, fma8(at_d + fma8(rise, d, ground), d * h, speed))
+    store(p, place + 4 * apart, fma8(at_e + fma8(rise, e, ground), e * h, speed))
 
 
 @inner
 def power_at(p, at, size, node, dense_damping, damped, grounded, loose):
     """Power of all dashpots at a node, W."""
     wide()
-    row = at.speeds + node * size * WIDTH
+    speeds = at.speeds + node * size * WIDTH
     slides = at.slides + node * size * WIDTH
     power = splat(0.0)
     below = splat(0.0)
     for i in range(size):
-        speed = load(p, row + i * WIDTH)
+        speed = load(p, speeds + i * WIDTH)
         if damped:
             drift = speed - below
             below = speed
-            power = fma8(load(p, of(at.model, COLUMN_DASHPOTS, size, i)), drift * drift, power)
+            power = fma8(load(p, row(COLUMN_DASHPOTS, i)), drift * drift, power)
             if loose:
                 brace = drift - load(p, slides + i * WIDTH)
-                power = fma8(load(p, of(at.model, DASHPOT, size, i)), brace * brace, power)
+                power = fma8(load(p, row(DASHPOT, i)), brace * brace, power)
         if grounded:
-            power = fma8(load(p, of(at.model, GROUND_DASHPOTS, size, i)), speed * speed, power)
+            power = fma8(load(p, row(GROUND_DASHPOTS, i)), speed * speed, power)
         if dense_damping:
             one = splat(0.0)
             two = splat(0.0)
             j = 0
             while j + 1 < i:
-                one = fma8(load(p, at.damping + (i * size + j) * WIDTH), load(p, row + j * WIDTH), one)
-                two = fma8(load(p, at.damping + (i * size + j + 1) * WIDTH), load(p, row + (j + 1) * WIDTH), two)
+                one = fma8(load(p, at.damping + (i * size + j) * WIDTH), load(p, speeds + j * WIDTH), one)
+                two = fma8(load(p, at.damping + (i * size + j + 1) * WIDTH), load(p, speeds + (j + 1) * WIDTH), two)
                 j += 2
             if j < i:
-                one = fma8(load(p, at.damping + (i * size + j) * WIDTH), load(p, row + j * WIDTH), one)
+                one = fma8(load(p, at.damping + (i * size + j) * WIDTH), load(p, speeds + j * WIDTH), one)
             one = splat(2.0) * (one + two)
             one = fma8(load(p, at.damping + (i * size + i) * WIDTH), speed, one)
             power = fma8(one, speed, power)

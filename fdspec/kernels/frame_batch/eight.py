@@ -36,6 +36,10 @@ if config.DISABLE_JIT:
         """Give a b + c, here rounded twice."""
         return a * b + c
 
+    def less8(c: Any, a: Any, b: Any) -> Any:
+        """Give c - a b, here rounded twice."""
+        return c - a * b
+
     def abs8(a: Any) -> Any:
         """Give magnitudes."""
         return np.abs(a)
@@ -51,6 +55,10 @@ if config.DISABLE_JIT:
     def where_above(a: Any, b: Any, x: Any, y: Any) -> Any:
         """Give x where a > b, else y."""
         return np.where(a > b, x, y)
+
+    def where_in(lanes: int, x: Any, y: Any) -> Any:
+        """Give x in the lanes of a set, else y."""
+        return np.where([lanes >> lane & 1 for lane in range(WIDTH)], x, y)
 
     def above(a: Any, b: Any) -> int:
         """Give the set of lanes in which a > b; where either is no number it is not."""
@@ -148,6 +156,15 @@ else:
         return eight(eight, eight, eight), code
 
     @intrinsic  # type: ignore[untyped-decorator]
+    def less8(typing_context: Any, c: Any, a: Any, b: Any) -> Any:  # noqa: ARG001
+        """Give c - a b, rounded once."""
+
+        def code(context: Any, builder: Any, sig: Any, args: Any) -> Any:  # noqa: ARG001
+            return _called(builder, "fma", builder.fneg(args[1]), args[2], args[0])
+
+        return eight(eight, eight, eight), code
+
+    @intrinsic  # type: ignore[untyped-decorator]
     def abs8(typing_context: Any, a: Any) -> Any:  # noqa: ARG001
         """Give magnitudes."""
 
@@ -182,6 +199,17 @@ else:
             return builder.select(builder.fcmp_ordered(">", *args[:2]), *args[2:])
 
         return eight(eight, eight, eight, eight), code
+
+    @intrinsic  # type: ignore[untyped-decorator]
+    def where_in(typing_context: Any, lanes: Any, x: Any, y: Any) -> Any:  # noqa: ARG001
+        """Give x in the lanes of a set, else y."""
+
+        def code(context: Any, builder: Any, sig: Any, args: Any) -> Any:  # noqa: ARG001
+            bits = builder.trunc(args[0], ir.IntType(WIDTH))
+            mask = builder.bitcast(bits, ir.VectorType(ir.IntType(1), WIDTH))
+            return builder.select(mask, *args[1:])
+
+        return eight(types.int64, eight, eight), code
 
     @intrinsic  # type: ignore[untyped-decorator]
     def above(typing_context: Any, a: Any, b: Any) -> Any:  # noqa: ARG001

@@ -12,15 +12,16 @@ from typing import Final
 import numpy as np
 from numba import types
 
-from fdspec.jit import entry, float1d, float2d, float3d, inner, int1d
+from fdspec.jit import entry, float2d, float3d, inner, int1d, wide
 from fdspec.kernels.frame import MODEL_ROWS, fastest_rate
 from fdspec.kernels.frame_batch.advance import add_input, advance
 from fdspec.kernels.frame_batch.dissipation import add_dissipation
-from fdspec.kernels.frame_batch.eight import ALL, WIDTH
+from fdspec.kernels.frame_batch.eight import WIDTH, load, store
 from fdspec.kernels.frame_batch.expand import expand, measure
-from fdspec.kernels.frame_batch.guard import alert, search
+from fdspec.kernels.frame_batch.guard import alert
 from fdspec.kernels.frame_batch.lane import finish, is_finite, put_history, put_phase, put_state, take_state
 from fdspec.kernels.frame_batch.layout import (
+    END,
     FRACTION,
     GROUND,
     LENGTH,
@@ -28,17 +29,17 @@ from fdspec.kernels.frame_batch.layout import (
     RATE,
     RISE,
     SPECIAL,
+    START,
     TAU,
-    of,
     places,
-    turned,
+    row,
 )
 from fdspec.kernels.frame_batch.peaks import raise_peaks
+from fdspec.kernels.frame_batch.search import search
 from fdspec.kernels.frame_phase import TALLY_ROWS
 from fdspec.kernels.frame_search import SAME_INSTANT
 from fdspec.kernels.frame_step import change_phases
 from fdspec.kernels.mdof import COUNTS, NO_TIME
-from fdspec.kernels.roots import NO_ROOT
 from fdspec.kernels.taylor import TERMS, longest_phase
 from fdspec.kernels.types import NON_FINITE_STATE, OK, TRANSITION_CAP, TRANSITION_CAP_REACHED
 
@@ -84,6 +85,15 @@ def set_step(p, lane, ground, dt, step, radians):
 
 
 @inner
+def renew(p, size):
+    """Let the end of a step be the start of the next."""
+    wide()
+    for i in range(size):
+        for r in range(4):
+            store(p, row(START + r, i), load(p, row(END + r, i)))
+
+
+@inner
 def change(
     p, at, size, lane, frame, stiffness, damping, model, kind, phase, fresh, touching, state, tally, instants,
     signs, x, counts, no_times, no_storeys,
@@ -92,16 +102,16 @@ def change(
 
     Return how many storeys were looked at and how many changed.
     """
-    take_state(p, at.end, size, lane, state)
+    take_state(p, END, size, lane, state)
     events, changes = change_phases(
         frame, model, stiffness, damping, kind, phase, fresh, touching, state, tally, instants, signs, x, 0.0,
         no_times, no_storeys, no_storeys, 0, counts,
     )  # fmt: skip
-    put_state(p, at.end, size, lane, state)
+    put_state(p, END, size, lane, state)
     for i in range(size):
         if instants[i] <= x + SAME_INSTANT:
             put_phase(p, at, size, lane, frame, model, kind, phase, i)
-        p[of(at.model, SPECIAL, size, i) + lane] = 1.0 if fresh[i] != 0 or touching[i] != 0 else 0.0
+        p[row(SPECIAL, i) + lane] = 1.0 if fresh[i] != 0 or touching[i] != 0 else 0.0
     return events, changes
 
 
@@ -111,13 +121,13 @@ def forget(p, at, size, lane, fresh, touching):
     for i in range(size):
         fresh[i] = 0
         touching[i] = 0
-        p[of(at.model, SPECIAL, size, i) + lane] = 0.0
+        p[row(SPECIAL, i) + lane] = 0.0
 
 
 @inner
 def run(
     frames, dense, stiffnesses, dampings, damped, grounded, loose, ground, dt, certify, radians, p, models, kinds,
-    phases, freshes, touchings, tallies, state, c, instants, signs, alerts, orders, steps, of_lane, events,
+    phases, freshes, touchings, tallies, state, c, instants, signs, alerts, orders, slots, firsts, steps, of_lane, events,
     transitions, held_rates_, no_times, no_storeys, by_storey, totals,
 ):  # fmt: skip
     """Integrate all histories: arguments as in :func:`integrate_frames`, and room to work in."""
@@ -156,20 +166,19 @@ def run(
                 orders[lane], is_whole = set_step(p, lane, ground, dt, steps[lane], radians)
                 most = max(most, orders[lane])
                 whole |= (1 << lane) if is_whole else 0
-        expand(p, at, size, most, dense_stiffness, dense_damping, damped, grounded, True)
+        expand(p, at, size, most, dense_stiffness, dense_damping, damped, grounded)
         measure(p, at, size, most)
         found = running & alert(p, at, size, alerts)
         happens = 0
         if found != 0:
+            search(
+                p, at, size, found, alerts, frames, of_lane, phases, freshes, touchings, orders, c, instants, signs,
+                slots[0], slots[1], slots[2], slots[3], firsts,
+            )  # fmt: skip
             for lane in range(WIDTH):
-                if found >> lane & 1:
-                    x = search(
-                        p, at, size, lane, alerts, frames[of_lane[lane]], phases[lane], freshes[lane],
-                        touchings[lane], orders[lane], c, instants[lane], signs[lane],
-                    )  # fmt: skip
-                    if x <= 1.0:
-                        happens |= 1 << lane
-                        p[FRACTION * WIDTH + lane] = x
+                if found >> lane & 1 and firsts[lane] <= 1.0:
+                    happens |= 1 << lane
+                    p[FRACTION * WIDTH + lane] = firsts[lane]
         advance(p, at, size, most)
         add_input(p, at, size, most)
         if certify:
@@ -204,7 +213,7 @@ def run(
             if ended:
                 tau = 0.0
                 steps[lane] += 1
-                if not is_finite(p, at.end, size, lane):
+                if not is_finite(p, END, size, lane):
                     status = NON_FINITE_STATE
             p[TAU * WIDTH + lane] = tau
             if status != OK or steps[lane] == last:
@@ -218,7 +227,7 @@ def run(
                 orders[lane] = 0
                 p[LENGTH * WIDTH + lane] = 0.0
                 p[ORDER * WIDTH + lane] = 0.0
-        at = turned(at)
+        renew(p, size)
 
 
 @entry(
@@ -261,6 +270,7 @@ def integrate_frames(
         np.zeros((WIDTH, size), np.int64), np.zeros((WIDTH, size), np.int64),
         np.zeros((WIDTH, TALLY_ROWS, size)), np.zeros((4, size)), np.zeros(TERMS + 2), np.zeros((WIDTH, size)),
         np.zeros((WIDTH, size), np.int64), np.zeros(size, np.int64), np.zeros(WIDTH, np.int64),
+        np.zeros((4, WIDTH), np.int64), np.zeros(WIDTH),
         np.zeros(WIDTH, np.int64), np.zeros(WIDTH, np.int64), np.zeros(WIDTH, np.int64),
         np.zeros(WIDTH, np.int64), np.zeros(WIDTH), np.zeros(0), np.zeros(0, np.int64), by_storey, totals,
     )  # fmt: skip

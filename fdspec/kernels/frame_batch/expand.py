@@ -14,8 +14,8 @@ its numbers are those it has alone.
 
 from __future__ import annotations
 
-from fdspec.jit import inner, wide
-from fdspec.kernels.frame_batch.eight import WIDTH, abs8, fma8, load, splat, store, where_above
+from fdspec.jit import inlined, inner, wide
+from fdspec.kernels.frame_batch.eight import WIDTH, abs8, fma8, less8, load, splat, store, where_above
 from fdspec.kernels.frame_batch.layout import (
     COLUMN_DASHPOTS,
     COLUMNS,
@@ -26,145 +26,162 @@ from fdspec.kernels.frame_batch.layout import (
     GROUND_DASHPOTS,
     GROUND_SPRINGS,
     HELD,
+    INERTIA,
     INERTIA_REACH,
     JERK_REACH,
     LENGTH,
     LOOSE_MASS,
     MASS,
+    NOW,
     OF_BRACE,
     OF_FLOOR,
     ORDER,
+    PULL,
+    REACH,
     RISE,
+    SECOND,
     SECOND_REACH,
     SLIDES,
     SPRING,
-    of,
+    START,
+    row,
     term,
 )
 from fdspec.kernels.oscillator import INVERSE
 from fdspec.kernels.taylor import DISPLACEMENT, OFFSET, SLIDING, VELOCITY
 
 
-@inner
-def multiply(p, matrix, x, size, pull):
-    """Add a matrix of lanes times a row of storeys to ``pull``; four rows share each load."""
-    wide()
+@inlined
+def multiply(p, matrix, x, size):
+    """Put a matrix of lanes times a row of all storeys into the row PULL; four storeys share each load."""
     i = 0
     while i + 3 < size:
-        a = load(p, pull + i * WIDTH)
-        b = load(p, pull + (i + 1) * WIDTH)
-        c = load(p, pull + (i + 2) * WIDTH)
-        d = load(p, pull + (i + 3) * WIDTH)
+        a = splat(0.0)
+        b = splat(0.0)
+        c = splat(0.0)
+        d = splat(0.0)
         for j in range(size):
-            y = load(p, x + j * WIDTH)
+            y = load(p, row(x, j))
             entry = matrix + (j * size + i) * WIDTH  # symmetric: read along its columns
             a = fma8(load(p, entry), y, a)
             b = fma8(load(p, entry + WIDTH), y, b)
             c = fma8(load(p, entry + 2 * WIDTH), y, c)
             d = fma8(load(p, entry + 3 * WIDTH), y, d)
-        store(p, pull + i * WIDTH, a)
-        store(p, pull + (i + 1) * WIDTH, b)
-        store(p, pull + (i + 2) * WIDTH, c)
-        store(p, pull + (i + 3) * WIDTH, d)
+        store(p, row(PULL, i), a)
+        store(p, row(PULL, i + 1), b)
+        store(p, row(PULL, i + 2), c)
+        store(p, row(PULL, i + 3), d)
         i += 4
     while i < size:
-        a = load(p, pull + i * WIDTH)
+        a = splat(0.0)
         for j in range(size):
-            a = fma8(load(p, matrix + (j * size + i) * WIDTH), load(p, x + j * WIDTH), a)
-        store(p, pull + i * WIDTH, a)
+            a = fma8(load(p, matrix + (j * size + i) * WIDTH), load(p, row(x, j)), a)
+        store(p, row(PULL, i), a)
         i += 1
 
 
 @inner
-def expand(p, at, size, orders, dense_stiffness, dense_damping, damped, grounded, thrust):
-    """Fill the series of ``orders`` terms over the steps that start at the block ``state``.
+def add_stiffness(p, at, size):
+    """Add what the dense stiffness asks for to the row PULL."""
+    wide()
+    for i in range(size):
+        a = load(p, row(PULL, i))
+        for j in range(size):
+            entry = at.stiffness + (j * size + i) * WIDTH
+            a = fma8(load(p, entry), load(p, row(NOW + DISPLACEMENT, j)), a)
+        store(p, row(PULL, i), a)
 
-    dense_stiffness, dense_damping: whether there are such matrices; damped: whether dashpots stand between
-    neighbours, grounded: whether floors hold to the ground; thrust: whether sums of masses times accelerations
-    are wanted.
+
+@inner
+def expand(p, at, size, orders, dense_stiffness, dense_damping, damped, grounded):
+    """Fill the series of ``orders`` terms over the steps that start at the state in the rows START.
+
+    Beside them the sums of all masses times their accelerations.  dense_stiffness, dense_damping: whether there
+    are such matrices; damped: whether dashpots stand between neighbours, grounded: whether floors hold to the
+    ground.
     """
     wide()
-    model = at.model
-    now = at.now
     h = load(p, LENGTH * WIDTH)
     order = load(p, ORDER * WIDTH)
     nothing = splat(0.0)
-    for i in range(4 * size):
-        store(p, now + i * WIDTH, load(p, at.state + i * WIDTH))
+    dense = dense_stiffness or dense_damping
+    for i in range(size):
+        for r in range(4):
+            store(p, row(NOW + r, i), load(p, row(START + r, i)))
+        store(p, row(PULL, i), nothing)
     for k in range(orders):
         factor = where_above(order, splat(float(k + 1)), h * splat(INVERSE[k + 1]), nothing)
-        if dense_stiffness or dense_damping:
-            for i in range(size):
-                store(p, at.pull + i * WIDTH, nothing)
-            if dense_stiffness:
-                multiply(p, at.stiffness, of(now, DISPLACEMENT, size, 0), size, at.pull)
-            if dense_damping:
-                multiply(p, at.damping, of(now, VELOCITY, size, 0), size, at.pull)
+        if dense_damping:
+            multiply(p, at.damping, NOW + VELOCITY, size)
+        if dense_stiffness:
+            if not dense_damping:
+                for i in range(size):
+                    store(p, row(PULL, i), nothing)
+            add_stiffness(p, at, size)
         upper = nothing
         total = nothing
+        x = load(p, row(NOW + DISPLACEMENT, size - 1))
+        y = load(p, row(NOW + VELOCITY, size - 1))
         for i in range(size - 1, -1, -1):
-            x = load(p, of(now, DISPLACEMENT, size, i))
-            y = load(p, of(now, VELOCITY, size, i))
-            o = load(p, of(now, OFFSET, size, i))
-            z = load(p, of(now, SLIDING, size, i))
-            drift = x
-            rate = y
+            o = load(p, row(NOW + OFFSET, i))
+            z = load(p, row(NOW + SLIDING, i))
+            x_below = nothing
+            y_below = nothing
             if i > 0:
-                drift = x - load(p, of(now, DISPLACEMENT, size, i - 1))
-            brace = load(p, of(model, SPRING, size, i)) * (drift - o)
-            storey = load(p, of(model, COLUMNS, size, i)) * drift
+                x_below = load(p, row(NOW + DISPLACEMENT, i - 1))
+                y_below = load(p, row(NOW + VELOCITY, i - 1))
+            drift = x - x_below
+            brace = load(p, row(SPRING, i)) * (drift - o)
+            storey = load(p, row(COLUMNS, i)) * drift
             if damped:
-                if i > 0:
-                    rate = y - load(p, of(now, VELOCITY, size, i - 1))
-                brace = fma8(load(p, of(model, DASHPOT, size, i)), rate - z, brace)
-                storey = fma8(load(p, of(model, COLUMN_DASHPOTS, size, i)), rate, storey)
+                rate = y - y_below
+                brace = fma8(load(p, row(DASHPOT, i)), rate - z, brace)
+                storey = fma8(load(p, row(COLUMN_DASHPOTS, i)), rate, storey)
             floor = upper - storey
             upper = storey + brace
             if grounded:
-                floor = floor - load(p, of(model, GROUND_SPRINGS, size, i)) * x
-                floor = floor - load(p, of(model, GROUND_DASHPOTS, size, i)) * y
-            if dense_stiffness or dense_damping:
-                floor = floor - load(p, at.pull + i * WIDTH)
-            push = floor - load(p, of(model, HELD, size, i)) * brace
-            second = load(p, of(model, OF_FLOOR, size, i)) * floor
-            second = fma8(load(p, of(model, OF_BRACE, size, i)), brace, second)
-            slides = load(p, of(model, SLIDES, size, i))
+                floor = less8(floor, load(p, row(GROUND_SPRINGS, i)), x)
+                floor = less8(floor, load(p, row(GROUND_DASHPOTS, i)), y)
+            if dense:
+                floor = floor - load(p, row(PULL, i))
+            push = less8(floor, load(p, row(HELD, i)), brace)
+            second = load(p, row(OF_FLOOR, i)) * floor
+            second = fma8(load(p, row(OF_BRACE, i)), brace, second)
             if k == 0:
-                friction = load(p, of(model, FRICTION, size, i))
+                friction = load(p, row(FRICTION, i))
                 push = push - friction
-                both = load(p, of(model, OF_FLOOR, size, i)) + load(p, of(model, OF_BRACE, size, i))
-                second = second - friction * both
-            inertia = push * load(p, of(model, COMPLIANCE, size, i))
-            store(p, term(at.inertia, i, k), inertia)
-            store(p, term(at.second, i, k), second)
-            if thrust:
-                total = fma8(load(p, of(model, MASS, size, i)), inertia, total)
-                total = total - load(p, of(model, LOOSE_MASS, size, i)) * second
+                second = less8(second, friction, load(p, row(OF_FLOOR, i)) + load(p, row(OF_BRACE, i)))
+            inertia = push * load(p, row(COMPLIANCE, i))
+            store(p, term(at, INERTIA, i, k), inertia)
+            store(p, term(at, SECOND, i, k), second)
+            total = fma8(load(p, row(MASS, i)), inertia, total)
+            total = less8(total, load(p, row(LOOSE_MASS, i)), second)
             if k == 0:
                 inertia = inertia - load(p, GROUND * WIDTH)
             elif k == 1:
                 inertia = inertia - load(p, RISE * WIDTH)
-            store(p, of(now, DISPLACEMENT, size, i), y * factor)
-            store(p, of(now, VELOCITY, size, i), inertia * factor)
-            store(p, of(now, OFFSET, size, i), z * factor)
-            store(p, of(now, SLIDING, size, i), second * (slides * factor))
-        if thrust:
-            store(p, at.thrust + k * WIDTH, total)
+            store(p, row(NOW + DISPLACEMENT, i), y * factor)
+            store(p, row(NOW + VELOCITY, i), inertia * factor)
+            store(p, row(NOW + OFFSET, i), z * factor)
+            store(p, row(NOW + SLIDING, i), second * (load(p, row(SLIDES, i)) * factor))
+            x = x_below
+            y = y_below
+        store(p, at.thrust + k * WIDTH, total)
 
 
 @inner
 def measure(p, at, size, orders):
-    """Fill the block of reaches: how far accelerations and reactions may go from those at the start."""
+    """Fill the reaches: how far accelerations and reactions may go from those at the start."""
     wide()
     for i in range(size):
         inertia = splat(0.0)
         jerk = splat(0.0)
         second = splat(0.0)
         for k in range(1, orders):
-            swing = abs8(load(p, term(at.inertia, i, k)))
+            swing = abs8(load(p, term(at, INERTIA, i, k)))
             inertia = inertia + swing
             jerk = fma8(swing, splat(float(k)), jerk)
-            second = second + abs8(load(p, term(at.second, i, k)))
-        store(p, of(at.reach, INERTIA_REACH, size, i), inertia)
-        store(p, of(at.reach, JERK_REACH, size, i), jerk)
-        store(p, of(at.reach, SECOND_REACH, size, i), second)
+            second = second + abs8(load(p, term(at, SECOND, i, k)))
+        store(p, row(REACH + INERTIA_REACH, i), inertia)
+        store(p, row(REACH + JERK_REACH, i), jerk)
+        store(p, row(REACH + SECOND_REACH, i), second)

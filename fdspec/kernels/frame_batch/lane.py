@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from fdspec.jit import inner
-from fdspec.kernels import frame as row
+from fdspec.kernels import frame as rows
 from fdspec.kernels.frame import NO_BRACE, fastest_rate, held_rates, kind_of, prepare, rate_of, set_phase
 from fdspec.kernels.frame_batch.eight import WIDTH
 from fdspec.kernels.frame_batch.layout import (
@@ -13,6 +13,7 @@ from fdspec.kernels.frame_batch.layout import (
     COLUMNS,
     COMPLIANCE,
     DASHPOT,
+    END,
     FRICTION,
     GROUND_DASHPOTS,
     GROUND_SPRINGS,
@@ -24,6 +25,7 @@ from fdspec.kernels.frame_batch.layout import (
     OF_BRACE,
     OF_FLOOR,
     OVER_BRACE,
+    PEAK,
     PEAKS,
     RATE,
     SIGN,
@@ -31,13 +33,14 @@ from fdspec.kernels.frame_batch.layout import (
     SLOWNESS,
     SPECIAL,
     SPRING,
+    START,
     TAU,
     VISCOUS,
-    of,
+    row,
 )
 from fdspec.kernels.frame_energy import stored_energy
 from fdspec.kernels.frame_phase import RELEASE, TALLY_ROWS, begin_slip, travel_so_far
-from fdspec.kernels.taylor import DISPLACEMENT, OFFSET
+from fdspec.kernels.taylor import DISPLACEMENT, OFFSET, VELOCITY
 from fdspec.kernels.types import NON_FINITE_STATE, OK, STICK
 
 
@@ -46,16 +49,16 @@ def put_phase(p, at, size, lane, frame, model, kind, phase, i):
     """Bring the lane's numbers of storey i in line with its phase."""
     set_phase(frame, model, phase, i)
     sticks = phase[i] == STICK
-    floor = frame[row.FLOOR_MASS, i]
-    brace = frame[row.BRACE_MASS, i]
-    p[of(at.model, COMPLIANCE, size, i) + lane] = model[row.COMPLIANCE, i]
-    p[of(at.model, HELD, size, i) + lane] = model[row.HELD, i]
-    p[of(at.model, FRICTION, size, i) + lane] = model[row.FRICTION, i]
-    p[of(at.model, OF_FLOOR, size, i) + lane] = model[row.FLOOR_SHARE, i] if sticks else 1.0 / floor
-    p[of(at.model, OF_BRACE, size, i) + lane] = model[row.BRACE_SHARE, i] if sticks else 1.0 / brace
-    p[of(at.model, SLIDES, size, i) + lane] = 0.0 if sticks else 1.0
-    p[of(at.model, SIGN, size, i) + lane] = phase[i]
-    p[of(at.model, LOOSE_MASS, size, i) + lane] = 0.0 if sticks else brace
+    floor = frame[rows.FLOOR_MASS, i]
+    brace = frame[rows.BRACE_MASS, i]
+    p[row(COMPLIANCE, i) + lane] = model[rows.COMPLIANCE, i]
+    p[row(HELD, i) + lane] = model[rows.HELD, i]
+    p[row(FRICTION, i) + lane] = model[rows.FRICTION, i]
+    p[row(OF_FLOOR, i) + lane] = model[rows.FLOOR_SHARE, i] if sticks else 1.0 / floor
+    p[row(OF_BRACE, i) + lane] = model[rows.BRACE_SHARE, i] if sticks else 1.0 / brace
+    p[row(SLIDES, i) + lane] = 0.0 if sticks else 1.0
+    p[row(SIGN, i) + lane] = phase[i]
+    p[row(LOOSE_MASS, i) + lane] = 0.0 if sticks else brace
 
 
 @inner
@@ -69,10 +72,10 @@ def put_history(p, at, size, lane, frame, stiffness, damping, model, kind, phase
     for r in range(4):
         for i in range(size):
             state[r, i] = 0.0
-            p[of(at.state, r, size, i) + lane] = 0.0
+            p[row(START + r, i) + lane] = 0.0
     for r in range(PEAKS):
         for i in range(size):
-            p[of(at.peaks, r, size, i) + lane] = 0.0
+            p[row(PEAK + r, i) + lane] = 0.0
     for r in range(TALLY_ROWS):
         for i in range(size):
             tally[r, i] = 0.0
@@ -81,21 +84,21 @@ def put_history(p, at, size, lane, frame, stiffness, damping, model, kind, phase
         phase[i] = STICK
         fresh[i] = 0
         touching[i] = 0
-        if kind[i] != NO_BRACE and frame[row.SLIP_FORCE, i] == 0.0:
+        if kind[i] != NO_BRACE and frame[rows.SLIP_FORCE, i] == 0.0:
             begin_slip(frame, kind, phase, fresh, state, tally, i, 1)
             fresh[i] = 0
-        brace = frame[row.BRACE_MASS, i]
-        p[of(at.model, SPRING, size, i) + lane] = frame[row.BRACE_STIFFNESS, i]
-        p[of(at.model, DASHPOT, size, i) + lane] = frame[row.BRACE_DAMPING, i]
-        p[of(at.model, COLUMNS, size, i) + lane] = frame[row.STOREY_STIFFNESS, i]
-        p[of(at.model, COLUMN_DASHPOTS, size, i) + lane] = frame[row.STOREY_DAMPING, i]
-        p[of(at.model, GROUND_SPRINGS, size, i) + lane] = frame[row.GROUND_STIFFNESS, i]
-        p[of(at.model, GROUND_DASHPOTS, size, i) + lane] = frame[row.GROUND_DAMPING, i]
-        p[of(at.model, MASS, size, i) + lane] = frame[row.FLOOR_MASS, i] + brace
-        p[of(at.model, LIMIT, size, i) + lane] = math.inf if kind[i] == NO_BRACE else frame[row.SLIP_FORCE, i]
-        p[of(at.model, SPECIAL, size, i) + lane] = 0.0
-        p[of(at.model, OVER_BRACE, size, i) + lane] = 1.0 / brace if brace > 0.0 else 0.0
-        p[of(at.model, SLOWNESS, size, i) + lane] = model[row.SLOWNESS, i] if brace > 0.0 else 0.0
+        brace = frame[rows.BRACE_MASS, i]
+        p[row(SPRING, i) + lane] = frame[rows.BRACE_STIFFNESS, i]
+        p[row(DASHPOT, i) + lane] = frame[rows.BRACE_DAMPING, i]
+        p[row(COLUMNS, i) + lane] = frame[rows.STOREY_STIFFNESS, i]
+        p[row(COLUMN_DASHPOTS, i) + lane] = frame[rows.STOREY_DAMPING, i]
+        p[row(GROUND_SPRINGS, i) + lane] = frame[rows.GROUND_STIFFNESS, i]
+        p[row(GROUND_DASHPOTS, i) + lane] = frame[rows.GROUND_DAMPING, i]
+        p[row(MASS, i) + lane] = frame[rows.FLOOR_MASS, i] + brace
+        p[row(LIMIT, i) + lane] = math.inf if kind[i] == NO_BRACE else frame[rows.SLIP_FORCE, i]
+        p[row(SPECIAL, i) + lane] = 0.0
+        p[row(OVER_BRACE, i) + lane] = 1.0 / brace if brace > 0.0 else 0.0
+        p[row(SLOWNESS, i) + lane] = model[rows.SLOWNESS, i] if brace > 0.0 else 0.0
         put_phase(p, at, size, lane, frame, model, kind, phase, i)
     for i in range(stiffness.shape[0]):
         for j in range(size):
@@ -113,25 +116,25 @@ def put_history(p, at, size, lane, frame, stiffness, damping, model, kind, phase
 
 @inner
 def take_state(p, block, size, lane, state):
-    """Take a lane's state from a block into (4, N)."""
+    """Take a lane's state from the rows of that state into (4, N)."""
     for r in range(4):
         for i in range(size):
-            state[r, i] = p[of(block, r, size, i) + lane]
+            state[r, i] = p[row(block + r, i) + lane]
 
 
 @inner
 def put_state(p, block, size, lane, state):
-    """Put a state (4, N) into a lane of a block."""
+    """Put a state (4, N) into a lane's rows of that state."""
     for r in range(4):
         for i in range(size):
-            p[of(block, r, size, i) + lane] = state[r, i]
+            p[row(block + r, i) + lane] = state[r, i]
 
 
 @inner
 def is_finite(p, block, size, lane):
     """Whether a lane's displacements and velocities are numbers."""
-    for i in range(2 * size):
-        if not math.isfinite(p[block + i * WIDTH + lane]):
+    for i in range(size):
+        if not math.isfinite(p[row(block + DISPLACEMENT, i) + lane] + p[row(block + VELOCITY, i) + lane]):
             return False
     return True
 
@@ -139,17 +142,17 @@ def is_finite(p, block, size, lane):
 @inner
 def finish(p, at, size, lane, frame, stiffness, phase, state, tally, transitions, status, certify, by_storey,
            totals):  # fmt: skip
-    """Fill a history's results, as `fdspec.kernels.mdof.integrate` does, from the block ``end``."""
-    take_state(p, at.end, size, lane, state)
+    """Fill a history's results, as `fdspec.kernels.mdof.integrate` does, from the rows END."""
+    take_state(p, END, size, lane, state)
     friction = 0.0
     for r in range(PEAKS):
         for i in range(size):
-            by_storey[r, i] = p[of(at.peaks, r, size, i) + lane]
+            by_storey[r, i] = p[row(PEAK + r, i) + lane]
     for i in range(size):
         travel = travel_so_far(phase, state[OFFSET, i], tally, i)
         work = tally[RELEASE, i]
         if travel > 0.0:
-            work += frame[row.KINETIC_SLIP_FORCE, i] * travel
+            work += frame[rows.KINETIC_SLIP_FORCE, i] * travel
         friction += work
         by_storey[6, i] = state[DISPLACEMENT, i]
         by_storey[7, i] = state[DISPLACEMENT, i] - state[OFFSET, i]
