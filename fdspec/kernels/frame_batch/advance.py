@@ -14,6 +14,7 @@ from fdspec.kernels.frame_batch.layout import (
     GROUND,
     INERTIA,
     INPUT,
+    LAST,
     LENGTH,
     LOOSE_MASS,
     MASS,
@@ -41,8 +42,9 @@ def advance(p, at, size, orders):
     t = x * load(p, LENGTH * WIDTH)
     power = splat(1.0)
     for k in range(orders):
-        store(p, at.weights + 2 * k * WIDTH, power * splat(ONCE[k]))
-        store(p, at.weights + (2 * k + 1) * WIDTH, power * splat(TWICE[k]))
+        store(p, at.weights + 3 * k * WIDTH, power)
+        store(p, at.weights + (3 * k + 1) * WIDTH, power * splat(ONCE[k]))
+        store(p, at.weights + (3 * k + 2) * WIDTH, power * splat(TWICE[k]))
         power = power * x
     ground = load(p, GROUND * WIDTH)
     rise = load(p, RISE * WIDTH) * x
@@ -53,10 +55,12 @@ def advance(p, at, size, orders):
         place = splat(0.0) - shift
         slide = splat(0.0)
         slip = splat(0.0)
+        last = splat(0.0)
         for k in range(orders):
-            once = load(p, at.weights + 2 * k * WIDTH)
-            twice = load(p, at.weights + (2 * k + 1) * WIDTH)
+            once = load(p, at.weights + (3 * k + 1) * WIDTH)
+            twice = load(p, at.weights + (3 * k + 2) * WIDTH)
             inertia = load(p, term(at, INERTIA, i, k))
+            last = fma8(inertia, load(p, at.weights + 3 * k * WIDTH), last)
             second = load(p, term(at, SECOND, i, k))
             speed = fma8(inertia, once, speed)
             place = fma8(inertia, twice, place)
@@ -67,6 +71,7 @@ def advance(p, at, size, orders):
         v = load(p, row(START + VELOCITY, i))
         o = load(p, row(START + OFFSET, i))
         z = load(p, row(START + SLIDING, i))
+        store(p, row(LAST, i), last)
         store(p, row(END + DISPLACEMENT, i), fma8(t, fma8(t, place, v), u))
         store(p, row(END + VELOCITY, i), fma8(t, speed, v))
         store(p, row(END + OFFSET, i), fma8(t, fma8(slides, slip, z), o))

@@ -48,6 +48,10 @@ if config.DISABLE_JIT:
         """Give the greater of each two, or b where either is no number."""
         return np.where(a > b, a, b)
 
+    def min8(a: Any, b: Any) -> Any:
+        """Give the lesser of each two, or b where either is no number."""
+        return np.where(a < b, a, b)
+
     def sqrt8(a: Any) -> Any:
         """Give square roots."""
         return np.sqrt(a)
@@ -188,6 +192,15 @@ else:
 
         def code(context: Any, builder: Any, sig: Any, args: Any) -> Any:  # noqa: ARG001
             return builder.select(builder.fcmp_ordered(">", *args), *args)
+
+        return eight(eight, eight), code
+
+    @intrinsic  # type: ignore[untyped-decorator]
+    def min8(typing_context: Any, a: Any, b: Any) -> Any:  # noqa: ARG001
+        """Give the lesser of each two, or b where either is no number."""
+
+        def code(context: Any, builder: Any, sig: Any, args: Any) -> Any:  # noqa: ARG001
+            return builder.select(builder.fcmp_ordered("<", *args), *args)
 
         return eight(eight, eight), code
 

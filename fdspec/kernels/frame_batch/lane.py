@@ -24,6 +24,7 @@ from fdspec.kernels.frame_batch.layout import (
     MASS,
     OF_BRACE,
     OF_FLOOR,
+    OMEGA,
     OVER_BRACE,
     PEAK,
     PEAKS,
@@ -99,6 +100,8 @@ def put_history(p, at, size, lane, frame, stiffness, damping, model, kind, phase
         p[row(SPECIAL, i) + lane] = 0.0
         p[row(OVER_BRACE, i) + lane] = 1.0 / brace if brace > 0.0 else 0.0
         p[row(SLOWNESS, i) + lane] = model[rows.SLOWNESS, i] if brace > 0.0 else 0.0
+        slowness = p[row(SLOWNESS, i) + lane]
+        p[row(OMEGA, i) + lane] = 1.0 / slowness if slowness > 0.0 else 0.0
         put_phase(p, at, size, lane, frame, model, kind, phase, i)
     for i in range(stiffness.shape[0]):
         for j in range(size):

@@ -40,25 +40,29 @@ HISTORY_ROWS: Final = 9
     LOOSE_MASS,
     OVER_BRACE,
     SLOWNESS,
-) = range(19)
+    OMEGA,
+) = range(20)
 """COMPLIANCE, HELD, FRICTION as in `fdspec.kernels.frame`.  OF_FLOOR and OF_BRACE weigh the forces on floor
 and brace in what decides the storey's phase: its reaction while it sticks, the acceleration of its sliding
 while it slips.  SLIDES is then 1, else 0, SIGN its direction, LOOSE_MASS the brace's mass, else 0.  LIMIT: slip
 force, infinite without a brace; SPECIAL: 1 where a phase has just begun; OVER_BRACE: 1 / m_d, SLOWNESS:
-sqrt(m_d / k_d), 0 without a brace."""
+sqrt(m_d / k_d), OMEGA its inverse, 0 without a brace."""
 
-START, END, NOW = 19, 23, 27
+START, END, NOW = 20, 24, 28
 """First of the rows of a state, as in `fdspec.kernels.taylor`: at the start of the step, at the end of what is
 taken of it, and coefficients of the power in hand."""
-PULL: Final = 31
+PULL: Final = 32
 """What dense matrices ask for, N."""
-REACH: Final = 32
+REACH: Final = 33
 INERTIA_REACH, JERK_REACH, SECOND_REACH = range(3)
 """Sums over k >= 1 of |I_k|, k |I_k|, |Q_k|; see :mod:`fdspec.kernels.frame_batch.expand`."""
-PEAK: Final = 35
+PEAK: Final = 36
 PEAKS: Final = 6
 """Peaks so far, in the order of `fdspec.kernels.frame_peaks`."""
-STOREY_ROWS: Final = 41
+LAST, RING = 42, 43
+"""Absolute acceleration of the floor at the end of what is taken, m/s2; bound on the velocity with which a
+slipping brace swings about the floor below, m/s."""
+STOREY_ROWS: Final = 44
 
 INERTIA, SECOND = range(2)
 """The two series of a storey."""
@@ -88,7 +92,7 @@ def places(storeys, dense_stiffness, dense_damping):
     series = slides + len(NODES) * storeys * WIDTH
     thrust = series + 2 * storeys * TERMS * WIDTH
     weights = thrust + TERMS * WIDTH
-    searched = weights + 2 * TERMS * WIDTH
+    searched = weights + 3 * TERMS * WIDTH
     size = searched + (TERMS + 2) * WIDTH
     return Places(stiffness, damping, speeds, slides, series, thrust, weights, searched, size)
 

@@ -6,8 +6,8 @@ second derivative; accelerations leave that at the start by at most their reach.
 
 from __future__ import annotations
 
-from fdspec.jit import inner, wide
-from fdspec.kernels.frame_batch.eight import WIDTH, above, abs8, fma8, load, max8, splat
+from fdspec.jit import inlined, inner, wide
+from fdspec.kernels.frame_batch.eight import ALL, WIDTH, above, abs8, fma8, less8, load, max8, min8, splat, store
 from fdspec.kernels.frame_batch.layout import (
     END,
     FRACTION,
@@ -15,11 +15,14 @@ from fdspec.kernels.frame_batch.layout import (
     INERTIA,
     INERTIA_REACH,
     JERK_REACH,
+    LAST,
     LENGTH,
     LOOSE_MASS,
     MASS,
+    OMEGA,
     PEAK,
     REACH,
+    RING,
     RISE,
     SECOND,
     SECOND_REACH,
@@ -50,47 +53,81 @@ def raise_peaks(p, at, size, lanes, orders, c):
     wide()
     h = load(p, LENGTH * WIDTH)
     rise = abs8(load(p, RISE * WIDTH))
-    strongest = abs8(load(p, GROUND * WIDTH)) + rise
-    eighth = splat(0.125) * h * h
+    ground = load(p, GROUND * WIDTH)
+    strongest = abs8(ground) + rise
+    eighth = splat(0.125) * h
     shear = splat(0.0)
     shear_reach = splat(0.0)
     for i in range(size - 1, -1, -1):
         inertia = load(p, term(at, INERTIA, i, 0))
-        second = load(p, term(at, SECOND, i, 0)) * load(p, row(SLIDES, i))
-        second_reach = load(p, row(REACH + SECOND_REACH, i)) * load(p, row(SLIDES, i))
+        last = load(p, row(LAST, i))
+        slides = load(p, row(SLIDES, i))
+        second = load(p, term(at, SECOND, i, 0)) * slides
+        second_reach = load(p, row(REACH + SECOND_REACH, i)) * slides
         swing = load(p, row(REACH + INERTIA_REACH, i))
         jerk = load(p, row(REACH + JERK_REACH, i))
+        pull = abs8(inertia) + swing
         u0 = load(p, row(START + DISPLACEMENT, i))
         u1 = load(p, row(END + DISPLACEMENT, i))
         v0 = load(p, row(START + VELOCITY, i))
         v1 = load(p, row(END + VELOCITY, i))
+        x0 = splat(0.0)
+        x1 = splat(0.0)
+        y0 = splat(0.0)
+        y1 = splat(0.0)
+        below = strongest
+        below_jerk = rise
+        if i > 0:
+            x0 = load(p, row(START + DISPLACEMENT, i - 1))
+            x1 = load(p, row(END + DISPLACEMENT, i - 1))
+            y0 = load(p, row(START + VELOCITY, i - 1))
+            y1 = load(p, row(END + VELOCITY, i - 1))
+            below = abs8(load(p, term(at, INERTIA, i - 1, 0))) + load(p, row(REACH + INERTIA_REACH, i - 1))
+            below_jerk = load(p, row(REACH + JERK_REACH, i - 1))
+        ring = load(p, row(RING, i)) * slides
+        omega = load(p, row(OMEGA, i))
+
+        top = raised(p, PEAK_ACCELERATION, i, inertia, last)
+        most = min8(pull, fma8(splat(0.5), jerk, max8(abs8(inertia), abs8(last))))
+        turns = ALL & ~above(splat(2.0) * abs8(load(p, term(at, INERTIA, i, 1))), jerk)
+        of_acceleration = lanes & turns & above(most, top)
+
+        sway = eighth * (jerk + rise)
+        top = raised(p, PEAK_VELOCITY, i, v0, v1)
+        turns = ALL & ~above(abs8(inertia - ground), swing + rise)
+        of_velocity = lanes & turns & above(max8(abs8(v0), abs8(v1)) + sway, top)
+
+        top = raised(p, PEAK_DISPLACEMENT, i, u0, u1)
+        most = fma8(eighth * h, pull + strongest, max8(abs8(u0), abs8(u1)))
+        of_displacement = lanes & may_turn(v0, v1, sway) & above(most, top)
+
+        top = raised(p, PEAK_DRIFT, i, u0 - x0, u1 - x1)
+        most = fma8(eighth * h, pull + below, max8(abs8(u0 - x0), abs8(u1 - x1)))
+        of_drift = lanes & may_turn(v0 - y0, v1 - y1, eighth * (jerk + below_jerk)) & above(most, top)
+
+        # A slipping brace swings about the floor below.
         b0 = u0 - load(p, row(START + OFFSET, i))
         b1 = u1 - load(p, row(END + OFFSET, i))
-        pull = abs8(inertia) + swing
-        velocity = fma8(splat(0.125) * h, jerk + rise, max8(abs8(v0), abs8(v1)))
-        displacement = fma8(eighth, pull + strongest, max8(abs8(u0), abs8(u1)))
-        below = strongest
-        g0 = u0
-        g1 = u1
+        top = raised(p, PEAK_BRACE_DISPLACEMENT, i, b0, b1)
+        most = min8(pull + second_reach + abs8(second), fma8(ring, omega, below))
+        most = fma8(eighth * h, most + strongest, max8(abs8(b0), abs8(b1)))
+        sticks = above(splat(0.5), slides)
+        turns = sticks & may_turn(v0, v1, sway)
         if i > 0:
-            g0 = u0 - load(p, row(START + DISPLACEMENT, i - 1))
-            g1 = u1 - load(p, row(END + DISPLACEMENT, i - 1))
-            below = abs8(load(p, term(at, INERTIA, i - 1, 0))) + load(p, row(REACH + INERTIA_REACH, i - 1))
-        drift = fma8(eighth, pull + below, max8(abs8(g0), abs8(g1)))
-        brace = max8(abs8(b0), abs8(b1))
-        brace = fma8(eighth, pull + strongest + second_reach + abs8(second), brace)
+            turns |= ~sticks & may_turn(y0, y1, fma8(eighth, below_jerk + rise, ring))
+        else:
+            turns |= ~sticks
+        of_brace = lanes & turns & above(most, top)
+
         # The storey shear carries the inertia of all masses above: that of floor and brace, less what
         # the brace's acceleration falls short of the floor's.
         mass = load(p, row(MASS, i))
         loose = load(p, row(LOOSE_MASS, i))
-        shear = fma8(mass, inertia, shear) - loose * second
-        shear_reach = fma8(mass, swing, shear_reach) + loose * second_reach
-        of_acceleration = lanes & above(pull, load(p, row(PEAK + PEAK_ACCELERATION, i)))
-        of_velocity = lanes & above(velocity, load(p, row(PEAK + PEAK_VELOCITY, i)))
-        of_displacement = lanes & above(displacement, load(p, row(PEAK + PEAK_DISPLACEMENT, i)))
-        of_drift = lanes & above(drift, load(p, row(PEAK + PEAK_DRIFT, i)))
-        of_brace = lanes & above(brace, load(p, row(PEAK + PEAK_BRACE_DISPLACEMENT, i)))
-        of_shear = lanes & above(abs8(shear) + shear_reach, load(p, row(PEAK + PEAK_SHEAR, i)))
+        shear = less8(fma8(mass, inertia, shear), loose, second)
+        of_ring = swing + below_swing(p, i, rise) + splat(2.0) * ring * omega
+        shear_reach = fma8(mass, swing, shear_reach) + loose * min8(second_reach, of_ring)
+        top = raised(p, PEAK_SHEAR, i, shear, shear)
+        of_shear = lanes & above(abs8(shear) + shear_reach, top)
         found = of_acceleration | of_velocity | of_displacement | of_drift | of_brace | of_shear
         lane = 0
         while found != 0:
@@ -123,6 +160,28 @@ def raise_peaks(p, at, size, lanes, orders, c):
                     raise_peak(p, row(PEAK + PEAK_SHEAR, i) + lane, c, n - 1)
             lane += 1
             found >>= 1
+
+
+@inlined
+def raised(p, which, i, start, end):
+    """Raise a peak of all lanes to its values at both ends, and give it."""
+    top = max8(load(p, row(PEAK + which, i)), max8(abs8(start), abs8(end)))
+    store(p, row(PEAK + which, i), top)
+    return top
+
+
+@inlined
+def may_turn(start, end, sway):
+    """The lanes in which a rate with these values at both ends may be zero: it leaves them by ``sway`` at most."""
+    ahead = above(min8(start, end), sway)
+    back = above(splat(0.0) - max8(start, end), sway)
+    return ALL & ~(ahead | back)
+
+
+@inlined
+def below_swing(p, i, rise):
+    """How far the acceleration of the floor below may go from that at the start."""
+    return load(p, row(REACH + INERTIA_REACH, i - 1)) if i > 0 else rise
 
 
 @inner
