@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.table import seconds, show
-from fdspec.building import Building, ModalDamping, RayleighDamping
-from fdspec.kernels.frame_traces import STOREY_TRACES, TOTAL_TRACES
-from fdspec.kernels.mdof import RADIANS, STOREY_RESULTS, TOTALS, integrate
+from fdspec.kernels.frame.history import RADIANS, STOREY_RESULTS, TOTALS, integrate
+from fdspec.kernels.frame.output import STOREY_TRACES, TOTAL_TRACES
+from fdspec.model.building import Building, ModalDamping, RayleighDamping
 
 REFERENCE = Path(__file__).parents[1] / "tests" / "reference" / "mdof_peaks.json"
 STOREYS = (2, 4, 8, 16, 24, 40)

@@ -8,9 +8,9 @@ import numpy as np
 
 from benchmarks.table import show
 from benchmarks.timing import best_of
-from fdspec.motion import GroundMotion
+from fdspec.model.motion import GroundMotion
 from fdspec.records import catalogue, load_record
-from fdspec.spectra import elastic_spectra
+from fdspec.signals.spectra import elastic_spectra
 
 PERIODS = np.linspace(0.05, 5.0, 100)
 ZETA = 0.05

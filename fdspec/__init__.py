@@ -3,26 +3,24 @@
 The names below load on first use, so that `import fdspec` and `fdspec --help` start at once.
 """
 
-import sys
-from types import ModuleType
 from typing import TYPE_CHECKING
 
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
-    from fdspec.building import Building
     from fdspec.choice.distribution import optimise
     from fdspec.choice.pretension import best_pretension
     from fdspec.choice.recommendation import choose
-    from fdspec.damping import DampingMatrix, ModalDamping, RayleighDamping
-    from fdspec.motion import GroundMotion
+    from fdspec.model.building import Building
+    from fdspec.model.damping import DampingMatrix, ModalDamping, RayleighDamping
+    from fdspec.model.motion import GroundMotion
     from fdspec.records import load_record, read_record
-    from fdspec.simulate import simulate
+    from fdspec.runs.simulate import simulate
+    from fdspec.runs.study import Study
+    from fdspec.runs.sweep import sweep
+    from fdspec.runs.sweep_buildings import sweep_buildings
     from fdspec.store.export import export
     from fdspec.store.netcdf import open, save  # noqa: A004
-    from fdspec.study import Study
-    from fdspec.sweep import sweep
-    from fdspec.sweep_buildings import sweep_buildings
 
 __all__ = [
     "Building",
@@ -46,12 +44,12 @@ __all__ = [
 ]
 
 _HOME = {
-    "Building": "building",
-    "DampingMatrix": "damping",
-    "GroundMotion": "motion",
-    "ModalDamping": "damping",
-    "RayleighDamping": "damping",
-    "Study": "study",
+    "Building": "model.building",
+    "DampingMatrix": "model.damping",
+    "GroundMotion": "model.motion",
+    "ModalDamping": "model.damping",
+    "RayleighDamping": "model.damping",
+    "Study": "runs.study",
     "best_pretension": "choice",
     "choose": "choice",
     "export": "store",
@@ -60,9 +58,9 @@ _HOME = {
     "optimise": "choice",
     "read_record": "records",
     "save": "store",
-    "simulate": "simulate",
-    "sweep": "sweep",
-    "sweep_buildings": "sweep_buildings",
+    "simulate": "runs.simulate",
+    "sweep": "runs.sweep",
+    "sweep_buildings": "runs.sweep_buildings",
 }
 
 
@@ -78,18 +76,3 @@ def __getattr__(name: str) -> object:
 
 def __dir__() -> list[str]:
     return sorted({*globals(), *__all__})
-
-
-class _Package(ModuleType):
-    """The package itself, where `sweep` and `simulate` are the functions, whatever is imported first.
-
-    Importing the file `fdspec/sweep.py` would bind the submodule over the function of the same name.
-    """
-
-    def __setattr__(self, name: str, value: object) -> None:
-        if name in _HOME and isinstance(value, ModuleType):
-            return
-        super().__setattr__(name, value)
-
-
-sys.modules[__name__].__class__ = _Package

@@ -24,9 +24,9 @@ from IPython.display import Markdown, display
 
 import fdspec
 from fdspec.figures import acceleration_caption, plot_acceleration
-from fdspec.gallery import RECORD_FIGURES
 from fdspec.measures import best_damper, study_claims
 from fdspec.measures.claims import CLAIMS, verdict_of_claim
+from fdspec.report.study_figures import RECORD_FIGURES
 
 pd.set_option("display.max_colwidth", None)
 

@@ -28,7 +28,7 @@ import numpy as np
 
 import fdspec
 from fdspec.figures import plot_record
-from fdspec.spectra import elastic_spectra
+from fdspec.signals.spectra import elastic_spectra
 
 # %% [markdown]
 # ## A file with two columns

@@ -24,7 +24,7 @@ import fdspec
 from fdspec.figures import plot_choice_index, plot_choice_records
 from fdspec.measures import index_of, indices, needs_of, residual, slip_load_spectrum
 from fdspec.report import text
-from fdspec.sweep import ON_REQUEST, OUTPUTS
+from fdspec.runs.sweep import ON_REQUEST, OUTPUTS
 
 NAMES = ["FSR1", "FSR2", "FSR3", "FMR1", "FMR2", "FMR3", "FHR1", "FHR2", "FHR3"]
 motions = [fdspec.load_record(name) for name in NAMES]
@@ -119,7 +119,9 @@ for weights in (
 periods = np.array([0.1, 0.2, 0.3, 0.5, 0.8, 1.2])
 three = motions[::3]
 of_three = fdspec.best_pretension(three, period=periods, stiffness_ratio=4)
-spectrum = slip_load_spectrum(of_three, 20e3, {m.name: fdspec.intensity.mean_period(m) for m in three})
+spectrum = slip_load_spectrum(
+    of_three, 20e3, {m.name: fdspec.signals.intensity.mean_period(m) for m in three}
+)
 figure, axis = plt.subplots(figsize=(7, 4), layout="constrained")
 for name, mark in zip(spectrum.record.values, "osD", strict=True):
     one = spectrum.sel(record=name)

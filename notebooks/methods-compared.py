@@ -46,7 +46,7 @@ for name, method in METHODS.items():
 
 # %%
 from fdspec.figures import plot_brace_displacements
-from fdspec.gallery import methods_compared
+from fdspec.report.study_figures import methods_compared
 
 histories = methods_compared()
 plot_brace_displacements(histories, title="displacement of the additional frame", end=14.0)

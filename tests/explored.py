@@ -9,7 +9,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 import fdspec
-from fdspec.motion import GroundMotion
+from fdspec.model.motion import GroundMotion
 
 PERIOD = [0.2, 0.35, 0.5, 0.8, 1.2, 2.0]
 PRETENSION = [20e3, 60e3, 110e3, 210e3, 500e3]

@@ -10,13 +10,13 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from fdspec.building import Building, Frame
-from fdspec.cube import named
 from fdspec.errors import InvalidInput
-from fdspec.fanout import fan_out, plan
 from fdspec.measures.ensemble import statistic_of
 from fdspec.measures.indices import Weights, needs_of, value_of
-from fdspec.motion import GroundMotion
+from fdspec.model.building import Building, Frame
+from fdspec.model.motion import GroundMotion
+from fdspec.runs.cube import named
+from fdspec.scheduling.threads import fan_out, plan
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -143,9 +143,9 @@ class Bench:
 
     @staticmethod
     def peaks_of(building: Building, motion: GroundMotion) -> dict[str, FloatArray]:
-        """Peaks (N,) of every storey, by name: `fdspec.kernels.mdof.STOREY_RESULTS`."""
-        from fdspec.kernels.mdof import STOREY_RESULTS
-        from fdspec.many_storeys import peaks_of
+        """Peaks (N,) of every storey, by name: `fdspec.kernels.frame.history.STOREY_RESULTS`."""
+        from fdspec.engines.many_storeys import peaks_of
+        from fdspec.kernels.frame.history import STOREY_RESULTS
 
         by_storey, _ = peaks_of(building.frame, motion, certify=False)
         return dict(zip(STOREY_RESULTS, by_storey, strict=True))
@@ -221,7 +221,7 @@ def _reach(
 
 
 def _with(frame: Frame, slip_force: FloatArray, kinetic_slip_force: FloatArray) -> Frame:
-    from fdspec.kernels.frame import KINETIC_SLIP_FORCE, SLIP_FORCE
+    from fdspec.kernels.frame.model import KINETIC_SLIP_FORCE, SLIP_FORCE
 
     properties = frame.properties.copy()
     properties[SLIP_FORCE] = slip_force
@@ -270,9 +270,9 @@ def _run(
 
 
 def _warm() -> None:
-    import fdspec.columns
-    import fdspec.many_storeys
-    import fdspec.strain  # noqa: F401
+    import fdspec.engines.batch
+    import fdspec.engines.many_storeys
+    import fdspec.engines.strain  # noqa: F401
 
 
 def _run_storey(
@@ -284,8 +284,8 @@ def _run_storey(
     motion: GroundMotion,
 ) -> FloatArray:
     """Run one single-storey frame (6,) with some of the slip forces (c,): (len(RESPONSES), items)."""
-    from fdspec.columns import integrate_columns
-    from fdspec.kernels.sdof import RESULTS
+    from fdspec.engines.batch import integrate_columns
+    from fdspec.kernels.storey.history import RESULTS
 
     force, kinetic = slip_force[items], kinetic_slip_force[items]
     rows = frame[np.newaxis]
@@ -298,7 +298,7 @@ def _run_storey(
         found[0, :, RESULTS.index("residual_displacement")]
     )
     if set(STRAIN) & set(needs):
-        from fdspec.strain import strain_of_columns
+        from fdspec.engines.strain import strain_of_columns
 
         table[-2:] = strain_of_columns(rows, force, kinetic, motion)[0].T
     return table
@@ -313,9 +313,9 @@ def _run_frame(
     motion: GroundMotion,
 ) -> FloatArray:
     """Run a frame with some of the rows of slip forces (c, N): (len(RESPONSES), items)."""
-    from fdspec.kernels.mdof import STOREY_RESULTS, TOTALS
-    from fdspec.many_storeys import peaks_of
-    from fdspec.strain import strain_of_frame
+    from fdspec.engines.many_storeys import peaks_of
+    from fdspec.engines.strain import strain_of_frame
+    from fdspec.kernels.frame.history import STOREY_RESULTS, TOTALS
 
     table = np.full((len(RESPONSES), items.size), np.nan)
     for column, item in enumerate(items):

@@ -9,15 +9,15 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from fdspec.building import Building
 from fdspec.choice.bench import Bench
 from fdspec.choice.search import FINEST, POINTS, Function, Scan, scan
 from fdspec.choice.variables import OPTIMUM
-from fdspec.cube import assemble
 from fdspec.errors import InvalidInput
 from fdspec.measures.indices import Weights, weights_of
-from fdspec.motion import GroundMotion
-from fdspec.progress import progress as progress_bar
+from fdspec.model.building import Building
+from fdspec.model.motion import GroundMotion
+from fdspec.runs.cube import assemble
+from fdspec.scheduling.progress import progress as progress_bar
 
 FloatArray = NDArray[np.float64]
 

@@ -11,18 +11,18 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from fdspec.building import Building
 from fdspec.choice.bench import Bench
 from fdspec.choice.search import Scan, scan
 from fdspec.choice.variables import BEST, BEST_FOR_ALL
-from fdspec.cube import assemble, named
 from fdspec.errors import InvalidInput
-from fdspec.fanout import fan_out, plan
-from fdspec.grid import Grid
 from fdspec.measures.ensemble import statistic_of
 from fdspec.measures.indices import Weights, needs_of, weights_of
-from fdspec.motion import GroundMotion
-from fdspec.progress import progress as progress_bar
+from fdspec.model.building import Building
+from fdspec.model.grid import Grid
+from fdspec.model.motion import GroundMotion
+from fdspec.runs.cube import assemble, named
+from fdspec.scheduling.progress import progress as progress_bar
+from fdspec.scheduling.threads import fan_out, plan
 
 FloatArray = NDArray[np.float64]
 
@@ -243,8 +243,8 @@ def _search_columns(
 
 
 def _warm() -> None:
-    import fdspec.columns
-    import fdspec.strain  # noqa: F401
+    import fdspec.engines.batch
+    import fdspec.engines.strain  # noqa: F401
 
 
 def _told(

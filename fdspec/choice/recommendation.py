@@ -10,17 +10,17 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from fdspec.building import Building
 from fdspec.choice.bench import Bench
 from fdspec.choice.distribution import DISTRIBUTIONS, best_scale, optimise, shape_of
 from fdspec.choice.search import Scan
 from fdspec.choice.variables import CHOICE
-from fdspec.cube import assemble
 from fdspec.errors import InvalidInput
 from fdspec.measures.indices import Weights, weights_of
-from fdspec.motion import GroundMotion
-from fdspec.progress import progress as progress_bar
-from fdspec.simulate import simulate
+from fdspec.model.building import Building
+from fdspec.model.motion import GroundMotion
+from fdspec.runs.cube import assemble
+from fdspec.runs.simulate import simulate
+from fdspec.scheduling.progress import progress as progress_bar
 
 FloatArray = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ from fdspec.cli.output import force_option, free
 from fdspec.cli.record_options import file_options, named_records
 
 if TYPE_CHECKING:
-    from fdspec.building import Building
+    from fdspec.model.building import Building
 
 PAGES = (".html", ".htm")
 
@@ -137,11 +137,11 @@ def choose(
                     f"{option} is of the single-storey frame; {building} tells the building."
                 )
 
-    from fdspec.building import Building
-    from fdspec.building_file import read_building
     from fdspec.choice import choose as compute
+    from fdspec.model.building import Building
+    from fdspec.model.building_file import read_building
     from fdspec.report.text import text
-    from fdspec.study import STUDY_RECORDS, find_record
+    from fdspec.runs.study import STUDY_RECORDS, find_record
 
     chosen: Building = (
         read_building(building)

@@ -14,7 +14,7 @@ from fdspec.errors import InvalidInput
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from fdspec.gallery import Picture
+    from fdspec.report.study_figures import Picture
 
 KINDS: Final = ("png", "pdf", "svg")
 
@@ -65,9 +65,9 @@ def figures(
     """
     from fdspec import store
     from fdspec.figures import plot_contact_sheet
-    from fdspec.gallery import applied_motions, chosen, study_pictures
-    from fdspec.progress import progress
-    from fdspec.study import Study
+    from fdspec.report.study_figures import applied_motions, chosen, study_pictures
+    from fdspec.runs.study import Study
+    from fdspec.scheduling.progress import progress
 
     dataset = store.open(cube)
     given = Study.read(study_file).motions() if study_file else ()

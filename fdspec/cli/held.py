@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from fdspec.motion import GroundMotion
-    from fdspec.study import Study
+    from fdspec.model.motion import GroundMotion
+    from fdspec.runs.study import Study
 
 
 def holds(path: Path, study: Study, motions: Sequence[GroundMotion]) -> bool:
@@ -18,10 +18,10 @@ def holds(path: Path, study: Study, motions: Sequence[GroundMotion]) -> bool:
     Any doubt is a no: a file that is none of ours, or was made otherwise.
     """
     import fdspec
-    from fdspec.cube import chosen
     from fdspec.errors import FdspecError
+    from fdspec.runs.cube import chosen
+    from fdspec.runs.sweep import ON_REQUEST, OUTPUTS
     from fdspec.store import provenance
-    from fdspec.sweep import ON_REQUEST, OUTPUTS
 
     try:
         with fdspec.open(path) as cube:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, ParamSpec, TypeVar
 import click
 
 if TYPE_CHECKING:
-    from fdspec.study import RecordFile
+    from fdspec.runs.study import RecordFile
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -31,7 +31,7 @@ def file_options(command: Callable[P, R]) -> Callable[P, R]:
 
 
 def named_record(record: str, units: str | None, dt: float | None, channel: str | None) -> str | RecordFile:
-    """Return what `fdspec.study` takes for one record: a name, or a file with what the options tell."""
+    """Return what `fdspec.runs.study` takes for one record: a name, or a file with what the options tell."""
     (named,) = _named([record], units, dt, channel)
     return named
 
@@ -51,7 +51,7 @@ def named_records(
 def _named(
     names: list[str], units: str | None, dt: float | None, channel: str | None
 ) -> tuple[str | RecordFile, ...]:
-    from fdspec.study import RecordFile, is_catalogued
+    from fdspec.runs.study import RecordFile, is_catalogued
 
     if not names or not all(name.strip() for name in names):
         raise click.UsageError("A record has a name or is a file: give one.")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 if TYPE_CHECKING:
     import xarray as xr
 
-    from fdspec.motion import GroundMotion
+    from fdspec.model.motion import GroundMotion
 
 LONGEST: Final = 3.0
 """s; the longest period of the study's grid."""
@@ -21,7 +21,7 @@ def drawn_spectra(motions: Sequence[GroundMotion], damping_ratio: Sequence[float
     """Compute spectra over even periods to the study's longest, from the shortest that all motions allow."""
     import numpy as np
 
-    from fdspec.spectra import SHORTEST, elastic_spectra
+    from fdspec.signals.spectra import SHORTEST, elastic_spectra
 
     shortest = max(motion.dt for motion in motions) * SHORTEST
     periods = STEP * np.arange(1, round(max(LONGEST, 10.0 * shortest) / STEP) + 1)

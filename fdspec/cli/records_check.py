@@ -41,9 +41,9 @@ def check_records(folder: str, link: bool, as_json: bool) -> None:
     FMR1, FMR3 and FHR2: components of the same event with the same PGA are candidates, as are near misses of
     the others. --link takes what was found, never a candidate; `fdspec records link` takes one.
     """
-    from fdspec.progress import progress
     from fdspec.records.check import check_folder, files_below, link_found
     from fdspec.records.links import links
+    from fdspec.scheduling.progress import progress
 
     files, _ = files_below(folder)
     with progress(len(files), "files") as done:

@@ -10,7 +10,7 @@ from fdspec.cli.output import force_option, free
 from fdspec.cli.record_options import file_options, named_record
 
 if TYPE_CHECKING:
-    from fdspec.motion import GroundMotion
+    from fdspec.model.motion import GroundMotion
 
 
 @click.command("convert")
@@ -70,9 +70,9 @@ def convert_record(
         raise click.UsageError("Give one of --factor, --pga and --pga-g.")
     path = free(output, force=force, suffixes=(".at2", ".txt"))
 
-    from fdspec import processing
     from fdspec.records.writing import write_record
-    from fdspec.study import find_record
+    from fdspec.runs.study import find_record
+    from fdspec.signals import processing
     from fdspec.units import G
 
     named = named_record(record, units, dt, channel)

@@ -51,8 +51,8 @@ def draw_records(
 
     from fdspec.cli.record_spectra import drawn_spectra
     from fdspec.figures import plot_histories, plot_spectra
+    from fdspec.runs.study import STUDY_RECORDS, find_record
     from fdspec.store.provenance import origins
-    from fdspec.study import STUDY_RECORDS, find_record
 
     folder = made_folder(output)
     paths = [folder / f"records-{what}.{kind}" for what in ("histories", "spectra")]

@@ -13,7 +13,7 @@ from fdspec.cli.record_options import file_options, named_record
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from fdspec.motion import GroundMotion
+    from fdspec.model.motion import GroundMotion
     from fdspec.records import CatalogueEntry
 
 DAMPING: Final = (0.02, 0.05, 0.10)
@@ -49,7 +49,7 @@ def show_record(
     picture = None if figure is None else free(figure, force=force, suffixes=PICTURES)
 
     from fdspec.records import catalogue
-    from fdspec.study import find_record
+    from fdspec.runs.study import find_record
     from fdspec.units import G
 
     named = named_record(record, units, dt, channel)
@@ -103,7 +103,7 @@ def _catalogued(entry: CatalogueEntry) -> dict[str, object]:
 
 def _intensity(motion: GroundMotion) -> dict[str, object]:
     """Return the intensity measures; none of a motion that is zero throughout, which has no duration."""
-    from fdspec.intensity import intensity
+    from fdspec.signals.intensity import intensity
 
     if motion.pga == 0.0:
         return {}

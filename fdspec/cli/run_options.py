@@ -67,7 +67,7 @@ def client_of(workers: int | None, scheduler: str | None) -> Iterator[Client | N
     if workers is None and scheduler is None:
         yield None
         return
-    from fdspec.cluster import connected, processes
+    from fdspec.scheduling.cluster import connected, processes
 
     if scheduler is not None:
         with connected(scheduler) as client:

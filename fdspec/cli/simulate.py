@@ -95,10 +95,10 @@ def simulate(
     if figure is not None:
         paths.append(free(figure, force=force, suffixes=PICTURES))
 
-    from fdspec.building import Building
-    from fdspec.simulate import simulate as compute
+    from fdspec.model.building import Building
+    from fdspec.runs.simulate import simulate as compute
+    from fdspec.runs.study import find_record
     from fdspec.store import save
-    from fdspec.study import find_record
 
     if pretension is not None:
         slip_force = (0.5 if friction_coefficient is None else friction_coefficient) * pretension

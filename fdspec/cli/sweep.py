@@ -20,7 +20,7 @@ from fdspec.cli.table import grouped, seconds, size
 if TYPE_CHECKING:
     import xarray as xr
 
-    from fdspec.study import Study
+    from fdspec.runs.study import Study
 
 
 @click.command()
@@ -82,10 +82,10 @@ def sweep(
     \b
         fdspec sweep --print-study > mine.toml
     """
-    from fdspec.grid import GRID_FIELDS
-    from fdspec.study import Study
-    from fdspec.sweep import estimate
-    from fdspec.sweep import sweep as compute
+    from fdspec.model.grid import GRID_FIELDS
+    from fdspec.runs.study import Study
+    from fdspec.runs.sweep import estimate
+    from fdspec.runs.sweep import sweep as compute
 
     started = time.perf_counter()
     study = Study() if study_file is None else Study.read(study_file)
@@ -151,9 +151,9 @@ def _plan(study: Study, path: Path) -> str:
     """Say what a run would do."""
     import numpy as np
 
-    from fdspec.cost import measured
-    from fdspec.fanout import cores
-    from fdspec.sweep import OUTPUTS
+    from fdspec.runs.cost import measured
+    from fdspec.runs.sweep import OUTPUTS
+    from fdspec.scheduling.threads import cores
     from fdspec.variables import CUBE
 
     motions = study.motions()

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from fdspec.errors import InvalidInput, RecordError
-from fdspec.motion import GroundMotion
+from fdspec.model.motion import GroundMotion
 from fdspec.records import catalogue, load_record
 from fdspec.records.reading import read_channels
 

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from fdspec.building import Building
 from fdspec.errors import InvalidInput
 from fdspec.explore.motions import Motions
 from fdspec.explore.packing import pack
-from fdspec.simulate import simulate
+from fdspec.model.building import Building
+from fdspec.runs.simulate import simulate
 from fdspec.units import G
 
 if TYPE_CHECKING:

@@ -72,7 +72,12 @@ async def _serve(content: Content, rerun: Rerun, host: str, port: int, ready: Ca
 
 
 def _warm() -> None:
-    for name in ("fdspec.single_storey", "fdspec.choice", "fdspec.columns", "fdspec.strain"):
+    for name in (
+        "fdspec.engines.single_storey",
+        "fdspec.choice",
+        "fdspec.engines.batch",
+        "fdspec.engines.strain",
+    ):
         import_module(name)
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
 
-    from fdspec.motion import GroundMotion
+    from fdspec.model.motion import GroundMotion
 
 COLOURS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
 """Of Okabe and Ito's palette, which colour-blind eyes can tell apart."""
@@ -97,7 +97,7 @@ def plot_spectra(
     Parameters
     ----------
     spectra : xarray.Dataset
-        What `fdspec.spectra.elastic_spectra` returns; a panel a damping ratio.
+        What `fdspec.signals.spectra.elastic_spectra` returns; a panel a damping ratio.
     quantity : {"absolute_acceleration", "pseudo_acceleration"}
     title : str
         By default what is drawn.

@@ -9,14 +9,14 @@ import numpy as np
 
 from fdspec.errors import InvalidInput
 from fdspec.figures.page import Figure
-from fdspec.intensity import arias_time, husid, intensity
+from fdspec.signals.intensity import arias_time, husid, intensity
 from fdspec.units import G
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
 
-    from fdspec.motion import GroundMotion
+    from fdspec.model.motion import GroundMotion
 
 LINE: Final = "#0072B2"
 """Of Okabe and Ito's palette, which colour-blind eyes can tell apart."""
@@ -37,7 +37,7 @@ def plot_record(motion: GroundMotion, spectra: xr.Dataset) -> Figure:
     ----------
     motion : GroundMotion
     spectra : xarray.Dataset
-        What `fdspec.spectra.elastic_spectra` returns, this motion among its records.
+        What `fdspec.signals.spectra.elastic_spectra` returns, this motion among its records.
 
     Returns
     -------

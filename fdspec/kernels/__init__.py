@@ -1,1 +1,1 @@
-"""Compiled kernels: numbers in, numbers out.  They import numba, numpy, math and fdspec.jit alone."""
+"""Compiled kernels: numbers in, numbers out.  They import numba, numpy, math and fdspec.compiler alone."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 
-from fdspec.jit import inner
+from fdspec.compiler.options import inner
 from fdspec.kernels.types import STICK
 
 GOES_ON = 2

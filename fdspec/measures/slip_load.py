@@ -25,7 +25,7 @@ def slip_load_spectrum(
         What `fdspec.best_pretension` returns for each record: `slip_force` over record, and its `pga`.
     floor_mass : float, kg
     motion_period : mapping of record to float, s, optional
-        A period of each ground motion, such as `fdspec.intensity.mean_period`.
+        A period of each ground motion, such as `fdspec.signals.intensity.mean_period`.
 
     Returns
     -------

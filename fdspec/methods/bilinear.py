@@ -7,8 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from fdspec.building import Building
-from fdspec.course import Course, FloatArray, Span
+from fdspec.engines.trajectory import Course, FloatArray, Span
 from fdspec.methods.marching import Dampers, march
 from fdspec.methods.matrices import braced, discretised, drifts, state_matrix, with_elements
 from fdspec.methods.method import (
@@ -20,7 +19,8 @@ from fdspec.methods.method import (
     without_brace_mass,
 )
 from fdspec.methods.samples import Samples, count_steps, course_of, stepwise
-from fdspec.motion import GroundMotion
+from fdspec.model.building import Building
+from fdspec.model.motion import GroundMotion
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,7 +59,7 @@ class Bilinear(Method):
 
     def integrate(self, building: Building, motion: GroundMotion, span: Span, start: FloatArray) -> Course:
         """Integrate one history."""
-        from fdspec.kernels.balanced import OFFSET
+        from fdspec.kernels.fixed_step.balanced import OFFSET
 
         no_brace_damping(self, building)
         ground, parts = intervals(motion, span), parts_of(motion, self.dt)

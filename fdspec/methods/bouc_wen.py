@@ -7,8 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from fdspec.building import Building
-from fdspec.course import Course, FloatArray, Span
+from fdspec.engines.trajectory import Course, FloatArray, Span
 from fdspec.errors import InvalidInput
 from fdspec.methods.matrices import braced, drifts
 from fdspec.methods.method import (
@@ -21,7 +20,8 @@ from fdspec.methods.method import (
 )
 from fdspec.methods.samples import Samples, count_steps, course_of, stepwise
 from fdspec.methods.smooth import integrate_smooth
-from fdspec.motion import GroundMotion
+from fdspec.model.building import Building
+from fdspec.model.motion import GroundMotion
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,9 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from fdspec.building import Building
-from fdspec.course import Course, FloatArray, Span
-from fdspec.damping import natural_modes
+from fdspec.engines.trajectory import Course, FloatArray, Span
 from fdspec.errors import InvalidInput
 from fdspec.methods.marching import Dampers, march
 from fdspec.methods.matrices import braced, discretised, drifts, state_matrix, with_elements
@@ -22,7 +20,9 @@ from fdspec.methods.method import (
     without_brace_mass,
 )
 from fdspec.methods.samples import Samples, count_steps, course_of, stepwise
-from fdspec.motion import GroundMotion
+from fdspec.model.building import Building
+from fdspec.model.damping import natural_modes
+from fdspec.model.motion import GroundMotion
 
 MOST_ROUNDS = 500
 
@@ -74,7 +74,7 @@ class EquivalentLinear(Method):
 
     def integrate(self, building: Building, motion: GroundMotion, span: Span, start: FloatArray) -> Course:
         """Integrate one history."""
-        from fdspec.kernels.newmark import ITERATION_NOT_CONVERGED
+        from fdspec.kernels.fixed_step.newmark import ITERATION_NOT_CONVERGED
 
         no_brace_damping(self, building)
         ground, parts = intervals(motion, span), parts_of(motion, self.dt)

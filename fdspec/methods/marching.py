@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fdspec.course import FloatArray, IntArray
+from fdspec.engines.trajectory import FloatArray, IntArray
 from fdspec.methods.matrices import Step
 
 
 @dataclass(frozen=True)
 class Dampers:
-    """How dampers enter a step: see `fdspec.kernels.balanced`."""
+    """How dampers enter a step: see `fdspec.kernels.fixed_step.balanced`."""
 
     kind: int
     first: FloatArray
@@ -43,7 +43,7 @@ def march(
     pull: what the ground acceleration at start and end of a step adds; ground (j, 2): at both ends of each
     interval of ``parts`` steps.
     """
-    from fdspec.kernels.balanced import march as kernel
+    from fdspec.kernels.fixed_step.balanced import march as kernel
 
     steps = ground.shape[0] * parts
     states = np.full((steps + 1, state.size), np.nan)

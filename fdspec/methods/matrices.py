@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fdspec.building import Building
-from fdspec.course import FloatArray
+from fdspec.engines.trajectory import FloatArray
+from fdspec.model.building import Building
 
 
 class System(NamedTuple):

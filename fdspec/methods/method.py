@@ -9,10 +9,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from fdspec.building import Building
-from fdspec.course import Course, FloatArray, Span
+from fdspec.engines.trajectory import Course, FloatArray, Span
 from fdspec.errors import InvalidInput
-from fdspec.motion import GroundMotion
+from fdspec.model.building import Building
+from fdspec.model.motion import GroundMotion
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,11 +7,11 @@ from typing import ClassVar
 
 import numpy as np
 
-from fdspec.building import Building
-from fdspec.course import Course, FloatArray, Span
+from fdspec.engines.trajectory import Course, FloatArray, Span
 from fdspec.errors import InvalidInput
 from fdspec.methods.method import Method, intervals, parts_of, positive
-from fdspec.motion import GroundMotion
+from fdspec.model.building import Building
+from fdspec.model.motion import GroundMotion
 
 ROOM = 100_000
 """Changes of phase for which there is room at first; a history with more of them is run again."""
@@ -59,7 +59,7 @@ class Newmark(Method):
 
     def integrate(self, building: Building, motion: GroundMotion, span: Span, start: FloatArray) -> Course:
         """Integrate one history."""
-        from fdspec.kernels import newmark as kernel
+        from fdspec.kernels.fixed_step import newmark as kernel
 
         braced = building.brace_stiffness > 0.0
         slips = braced & np.isfinite(building.slip_force)

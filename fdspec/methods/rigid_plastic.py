@@ -7,13 +7,13 @@ from typing import ClassVar
 
 import numpy as np
 
-from fdspec.building import Building
-from fdspec.course import Course, FloatArray, IntArray, Span
+from fdspec.engines.trajectory import Course, FloatArray, IntArray, Span
 from fdspec.methods.marching import Dampers, march
 from fdspec.methods.matrices import System, braced, discretised, drifts, state_matrix
 from fdspec.methods.method import Method, intervals, parts_of, positive
 from fdspec.methods.samples import Samples, count_steps, course_of, stepwise
-from fdspec.motion import GroundMotion
+from fdspec.model.building import Building
+from fdspec.model.motion import GroundMotion
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,7 +48,7 @@ class RigidPlastic(Method):
 
     def integrate(self, building: Building, motion: GroundMotion, span: Span, start: FloatArray) -> Course:
         """Integrate one history."""
-        from fdspec.kernels.balanced import HELD
+        from fdspec.kernels.fixed_step.balanced import HELD
 
         ground, parts = intervals(motion, span), parts_of(motion, self.dt)
         count_steps(self, ground.shape[0], parts)

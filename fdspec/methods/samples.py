@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fdspec.building import Building
-from fdspec.course import Course, FloatArray, IntArray, Span
+from fdspec.engines.trajectory import Course, FloatArray, IntArray, Span
 from fdspec.errors import InvalidInput
 from fdspec.methods.matrices import drifts
 from fdspec.methods.method import Method
+from fdspec.model.building import Building
 
 MOST_STEPS = 10_000_000
 """Steps of a history that is kept whole."""

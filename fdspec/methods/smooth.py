@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from fdspec.course import FloatArray
-from fdspec.motion import GroundMotion
+from fdspec.engines.trajectory import FloatArray
+from fdspec.model.motion import GroundMotion
 
 MOST_STEPS_BETWEEN = 1_000_000
 """Of the integrator, between two instants at which the motion is read."""

@@ -7,14 +7,14 @@ from typing import ClassVar
 
 import numpy as np
 
-from fdspec.building import Building
-from fdspec.course import Course, FloatArray, Span
+from fdspec.engines.trajectory import Course, FloatArray, Span
 from fdspec.errors import InvalidInput
 from fdspec.methods.marching import Dampers, march
 from fdspec.methods.matrices import braced, discretised, drifts, state_matrix, with_braces
 from fdspec.methods.method import Method, intervals, parts_of, positive
 from fdspec.methods.samples import Samples, count_steps, course_of, stepwise
-from fdspec.motion import GroundMotion
+from fdspec.model.building import Building
+from fdspec.model.motion import GroundMotion
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,7 +54,7 @@ class StateSpace(Method):
 
     def integrate(self, building: Building, motion: GroundMotion, span: Span, start: FloatArray) -> Course:
         """Integrate one history."""
-        from fdspec.kernels.balanced import HELD
+        from fdspec.kernels.fixed_step.balanced import HELD
 
         storeys = braced(building)
         if (building.brace_mass[storeys] == 0.0).any():

@@ -11,7 +11,7 @@ from functools import cache
 from pathlib import Path
 
 from fdspec.errors import RecordError
-from fdspec.motion import GroundMotion
+from fdspec.model.motion import GroundMotion
 from fdspec.records.folder import records_folder
 from fdspec.records.links import Link, linked
 from fdspec.records.reading import read_record

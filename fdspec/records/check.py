@@ -16,7 +16,7 @@ from types import MappingProxyType
 from typing import Final
 
 from fdspec.errors import RecordError
-from fdspec.motion import GroundMotion
+from fdspec.model.motion import GroundMotion
 from fdspec.records.catalogue import CatalogueEntry, catalogue, catalogue_entry
 from fdspec.records.links import Link, checksum, save_links
 from fdspec.records.reading import read_channels, read_record

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from fdspec.checked import positive_number
 from fdspec.errors import InvalidInput, RecordError
-from fdspec.motion import GroundMotion
+from fdspec.model.motion import GroundMotion
+from fdspec.model.number_check import positive_number
 from fdspec.records import miniseed
 from fdspec.records import text as columns
 from fdspec.records.channel import Channel

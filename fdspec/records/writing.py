@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import Final
 
 from fdspec.errors import InvalidInput, RecordError
-from fdspec.motion import GroundMotion
+from fdspec.model.motion import GroundMotion
 from fdspec.records import written
 from fdspec.records.written import one_line
 from fdspec.units import G

@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from fdspec.motion import GroundMotion
+from fdspec.model.motion import GroundMotion
 from fdspec.records.channel import Channel
 from fdspec.records.keyed import number, whole_number
 from fdspec.records.numbers import parse_number

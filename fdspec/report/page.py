@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from html import escape
 from typing import TYPE_CHECKING, Final
 
-from fdspec.building import Building
 from fdspec.choice.bench import Bench, without_braces
 from fdspec.figures import encode, plot_before_after, plot_choice_index, plot_choice_records, plot_history
-from fdspec.motion import GroundMotion
+from fdspec.model.building import Building
+from fdspec.model.motion import GroundMotion
 from fdspec.report.findings import (
     CASES,
     assumptions,
@@ -23,7 +23,7 @@ from fdspec.report.findings import (
     worst_record,
 )
 from fdspec.report.rows import record_rows
-from fdspec.simulate import simulate
+from fdspec.runs.simulate import simulate
 from fdspec.units import G
 
 if TYPE_CHECKING:

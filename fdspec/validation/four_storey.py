@@ -15,8 +15,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fdspec.building import Building, ModalDamping
-from fdspec.motion import GroundMotion
+from fdspec.model.building import Building, ModalDamping
+from fdspec.model.motion import GroundMotion
 from fdspec.validation.kalamata import stand_in
 from fdspec.validation.pair import Pair, both
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import Final
 
-from fdspec.motion import GroundMotion
+from fdspec.model.motion import GroundMotion
 from fdspec.records import load_record, read_record
 from fdspec.units import G
 

@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from fdspec.building import Building
-from fdspec.motion import GroundMotion
-from fdspec.simulate import simulate
+from fdspec.model.building import Building
+from fdspec.model.motion import GroundMotion
+from fdspec.runs.simulate import simulate
 
 DT_OUT = 2e-3
 """Time between outputs, s; no result depends on it."""

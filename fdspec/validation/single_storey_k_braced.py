@@ -13,8 +13,8 @@ from __future__ import annotations
 import math
 from typing import Final
 
-from fdspec.building import Building, ModalDamping
-from fdspec.motion import GroundMotion
+from fdspec.model.building import Building, ModalDamping
+from fdspec.model.motion import GroundMotion
 from fdspec.validation.kalamata import stand_in
 from fdspec.validation.pair import Pair, both
 

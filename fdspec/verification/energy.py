@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from fdspec.building import Building
+from fdspec.model.building import Building
 from fdspec.records import load_record
-from fdspec.simulate import simulate
-from fdspec.sweep import sweep
+from fdspec.runs.simulate import simulate
+from fdspec.runs.sweep import sweep
 from fdspec.validation import four_storey
 from fdspec.verification.problems import shaking
 from fdspec.verification.row import Row, at_most, relative

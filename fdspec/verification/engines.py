@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from fdspec.building import Building, ModalDamping
-from fdspec.course import Span
-from fdspec.many_storeys import integrate_many_storeys
-from fdspec.single_storey import integrate_single_storey
-from fdspec.sweep import sweep
+from fdspec.engines.many_storeys import integrate_many_storeys
+from fdspec.engines.single_storey import integrate_single_storey
+from fdspec.engines.trajectory import Span
+from fdspec.model.building import Building, ModalDamping
+from fdspec.runs.sweep import sweep
 from fdspec.verification.problems import FRAMES, frame, noise, shaking
 from fdspec.verification.row import Row, relative, same_count
 

@@ -10,8 +10,8 @@ import numpy as np
 
 from fdspec.methods import Newmark, StateSpace
 from fdspec.records import load_record
-from fdspec.simulate import simulate
-from fdspec.sweep import sweep
+from fdspec.runs.simulate import simulate
+from fdspec.runs.sweep import sweep
 from fdspec.validation import four_storey, kalamata, single_storey_k_braced
 from fdspec.verification.problems import FRAMES, frame, shaking
 from fdspec.verification.row import Row, absolute, at_least, at_most, relative

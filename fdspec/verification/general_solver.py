@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from fdspec.building import Building, ModalDamping
-from fdspec.course import FloatArray
-from fdspec.motion import GroundMotion
-from fdspec.simulate import simulate
+from fdspec.engines.trajectory import FloatArray
+from fdspec.model.building import Building, ModalDamping
+from fdspec.model.motion import GroundMotion
+from fdspec.runs.simulate import simulate
 from fdspec.verification.problems import noise, shaking, two_storeys
 from fdspec.verification.row import Row, absolute, relative, same_count
 

@@ -8,8 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from fdspec.building import Building, ModalDamping
-from fdspec.course import FloatArray
+from fdspec.engines.trajectory import FloatArray
 from fdspec.methods import (
     EXACT,
     Bilinear,
@@ -21,8 +20,9 @@ from fdspec.methods import (
     RigidPlastic,
     StateSpace,
 )
-from fdspec.motion import GroundMotion
-from fdspec.simulate import simulate
+from fdspec.model.building import Building, ModalDamping
+from fdspec.model.motion import GroundMotion
+from fdspec.runs.simulate import simulate
 from fdspec.verification.problems import noise
 from fdspec.verification.row import Row, at_most, relative
 from fdspec.verification.steady_states import den_hartog_amplitude, steady_amplitude

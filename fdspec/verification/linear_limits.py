@@ -7,11 +7,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from fdspec.building import Building
-from fdspec.course import FloatArray
+from fdspec.engines.trajectory import FloatArray
 from fdspec.methods.matrices import discretised, state_matrix, with_braces, with_elements
-from fdspec.motion import GroundMotion
-from fdspec.simulate import simulate
+from fdspec.model.building import Building
+from fdspec.model.motion import GroundMotion
+from fdspec.runs.simulate import simulate
 from fdspec.validation import four_storey
 from fdspec.verification.problems import frame, shaking
 from fdspec.verification.row import Row, relative

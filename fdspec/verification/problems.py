@@ -7,8 +7,8 @@ from typing import Final
 
 import numpy as np
 
-from fdspec.building import Building, ModalDamping
-from fdspec.motion import GroundMotion
+from fdspec.model.building import Building, ModalDamping
+from fdspec.model.motion import GroundMotion
 from fdspec.records import load_record
 
 FRAMES: Final = tuple(

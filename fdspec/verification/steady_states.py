@@ -8,10 +8,10 @@ from typing import Final
 
 import numpy as np
 
-from fdspec.building import Building
 from fdspec.methods import EXACT, Method
-from fdspec.motion import GroundMotion
-from fdspec.simulate import simulate
+from fdspec.model.building import Building
+from fdspec.model.motion import GroundMotion
+from fdspec.runs.simulate import simulate
 from fdspec.verification.problems import rubbing
 from fdspec.verification.row import Row, relative, same_count
 

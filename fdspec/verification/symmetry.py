@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from fdspec.building import Building
-from fdspec.motion import GroundMotion
-from fdspec.simulate import simulate
+from fdspec.model.building import Building
+from fdspec.model.motion import GroundMotion
+from fdspec.runs.simulate import simulate
 from fdspec.verification.problems import frame, noise, two_storeys
 from fdspec.verification.row import Row, relative, same_count
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import fdspec
-from fdspec.course import Span
-from fdspec.kernels.plan import RADIANS
-from fdspec.single_storey import integrate_single_storey
+from fdspec.engines.single_storey import integrate_single_storey
+from fdspec.engines.trajectory import Span
+from fdspec.kernels.storey.constants import RADIANS
 from tests import cells
 from tests.answers import PEAKS, Answer, building_of, swept
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import fdspec
-from fdspec.course import Course, Span
-from fdspec.many_storeys import integrate_many_storeys
+from fdspec.engines.many_storeys import integrate_many_storeys
+from fdspec.engines.trajectory import Course, Span
 from tests.buildings import CASES, Case
 from tests.reference import numbers
 

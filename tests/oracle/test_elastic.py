@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.signal import StateSpace, lsim
 
-from fdspec.motion import GroundMotion
+from fdspec.model.motion import GroundMotion
 from fdspec.records import load_record
-from fdspec.spectra import elastic_spectra
+from fdspec.signals.spectra import elastic_spectra
 from tests.oracle.elastic_exponential import elastic_peaks
 
 

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import fdspec
-from fdspec.columns import integrate_columns
-from fdspec.kernels.sdof import RESULTS
+from fdspec.engines.batch import integrate_columns
+from fdspec.kernels.storey.history import RESULTS
 from tests.cells import FLOOR_MASS, Cell, draw
 
 FIRST, LAST = map(int, os.environ.get("FDSPEC_RANDOM_CELLS", "0:2000").split(":"))

@@ -9,9 +9,9 @@ import pytest
 from scipy.linalg import eigh
 
 import fdspec
-from fdspec.course import Course, Span
-from fdspec.many_storeys import integrate_many_storeys
-from fdspec.single_storey import integrate_single_storey
+from fdspec.engines.many_storeys import integrate_many_storeys
+from fdspec.engines.single_storey import integrate_single_storey
+from fdspec.engines.trajectory import Course, Span
 from tests import cells, closed_forms
 from tests.answers import building_of
 from tests.buildings import CASES, Case

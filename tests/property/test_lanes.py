@@ -9,10 +9,10 @@ import pytest
 from numba import config
 
 import fdspec
-from fdspec.columns import integrate_columns
-from fdspec.kernels import columns as kernels
-from fdspec.kernels.packed import WIDTH
-from fdspec.kernels.sdof import RESULTS
+from fdspec.engines.batch import integrate_columns
+from fdspec.kernels.batch import entry as kernels
+from fdspec.kernels.batch.layout import WIDTH
+from fdspec.kernels.storey.history import RESULTS
 from tests.cells import FLOOR_MASS, Cell, draw
 
 ALONE, TOGETHER = WIDTH + 1, 1

@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import fdspec
-from fdspec.course import Course, Span
-from fdspec.many_storeys import integrate_many_storeys
+from fdspec.engines.many_storeys import integrate_many_storeys
+from fdspec.engines.trajectory import Course, Span
 from fdspec.records import catalogue
 from tests.reference import numbers
 

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from fdspec.motion import GroundMotion
+from fdspec.model.motion import GroundMotion
 
 samples = arrays(np.float64, st.integers(2, 50), elements=st.floats(-40.0, 40.0))
 steps = st.floats(1e-6, 10.0)

@@ -6,7 +6,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from fdspec.errors import InvalidInput, RecordError
-from fdspec.motion import GroundMotion
+from fdspec.model.motion import GroundMotion
 from fdspec.records import load_record, read_record
 from fdspec.records.writing import write_record
 

@@ -9,8 +9,8 @@ import pickle
 import numpy as np
 import pytest
 
-from fdspec.building import Building, DampingMatrix, Linkage, ModalDamping, RayleighDamping
 from fdspec.errors import InvalidInput
+from fdspec.model.building import Building, DampingMatrix, Linkage, ModalDamping, RayleighDamping
 from tests.reference import numbers
 
 TWO = {

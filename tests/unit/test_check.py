@@ -10,9 +10,9 @@ import xarray as xr
 
 import fdspec
 from fdspec import store
-from fdspec.check import check
 from fdspec.cli import main
 from fdspec.errors import StoreError
+from fdspec.store.check import check
 from tests.cubes import synthetic_cube, synthetic_history
 from tests.unit.test_sweep import AXES, record
 
@@ -33,7 +33,7 @@ def swept(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     """The CF checker takes seconds; it is met in the first test."""
-    monkeypatch.setattr("fdspec.check.shutil.which", lambda *_, **__: None)
+    monkeypatch.setattr("fdspec.store.check.shutil.which", lambda *_, **__: None)
 
 
 def failed(path: Path) -> dict[str, str]:

@@ -7,12 +7,12 @@ import pytest
 from numpy.typing import NDArray
 
 import fdspec
-from fdspec.building import Building
 from fdspec.choice.bench import Bench
 from fdspec.errors import InvalidInput
 from fdspec.measures import INDICES, best_for_all, index_of, needs_of, slip_load_spectrum
-from fdspec.motion import GroundMotion
-from fdspec.sweep import OUTPUTS
+from fdspec.model.building import Building
+from fdspec.model.motion import GroundMotion
+from fdspec.runs.sweep import OUTPUTS
 from fdspec.validation import four_storey, kalamata
 
 NAMES = ("FSR1", "FSR2", "FSR3", "FMR1", "FMR2", "FMR3", "FHR1", "FHR2", "FHR3")

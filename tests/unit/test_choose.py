@@ -13,16 +13,16 @@ import xarray as xr
 from click.testing import CliRunner
 
 import fdspec
-from fdspec.building import Building
-from fdspec.building_file import read_building
 from fdspec.choice.bench import Bench
 from fdspec.cli.commands import fdspec as command
 from fdspec.cli.main import main
 from fdspec.errors import InvalidInput
 from fdspec.measures import index_of
-from fdspec.motion import GroundMotion
+from fdspec.model.building import Building
+from fdspec.model.building_file import read_building
+from fdspec.model.motion import GroundMotion
 from fdspec.report import page, text
-from fdspec.study import STUDY_RECORDS
+from fdspec.runs.study import STUDY_RECORDS
 from tests.unit.test_choice import clipped
 
 FOUR = """

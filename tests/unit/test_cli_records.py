@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from fdspec.cli import main
-from fdspec.intensity import intensity
 from fdspec.records import catalogue, load_record, read_record
+from fdspec.signals.intensity import intensity
 from fdspec.units import G
 
 

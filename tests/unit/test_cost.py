@@ -9,18 +9,18 @@ import numpy as np
 import pytest
 
 import fdspec
-from fdspec.cost import Cost, Measured, fitted, measured, parts_of, steps_per_sample, work_of
-from fdspec.grid import Grid
-from fdspec.sweep import timed
+from fdspec.model.grid import Grid
+from fdspec.runs.cost import Cost, Measured, fitted, measured, parts_of, steps_per_sample, work_of
+from fdspec.runs.sweep import timed
 from tests.unit.test_sweep import record
 
 
 def test_steps_are_those_of_the_kernels() -> None:
-    from fdspec.kernels.columns import prepare
-    from fdspec.kernels.energy import N_FORMS
-    from fdspec.kernels.plan import RADIANS
-    from fdspec.kernels.shelf import N_SHELF, N_STRIDE
-    from fdspec.sweep import _frames
+    from fdspec.kernels.batch.entry import prepare
+    from fdspec.kernels.batch.shelf import N_SHELF, N_STRIDE
+    from fdspec.kernels.storey.constants import RADIANS
+    from fdspec.kernels.storey.energy import N_FORMS
+    from fdspec.runs.sweep import _frames
 
     grid = Grid.study()
     columns = np.arange(7 * 60)

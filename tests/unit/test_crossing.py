@@ -9,7 +9,8 @@ import pytest
 from hypothesis import HealthCheck, assume, example, given, settings
 from hypothesis import strategies as st
 
-from fdspec.kernels.crossing import (
+from fdspec.kernels.mathematics.oscillator import advance, area, step_map
+from fdspec.kernels.mathematics.zero_crossing import (
     CLEAR,
     CROSSES,
     NEAR,
@@ -25,7 +26,6 @@ from fdspec.kernels.crossing import (
     step_to_zero,
     verdict,
 )
-from fdspec.kernels.oscillator import advance, area, step_map
 
 AT = np.linspace(0.0, 1.0, 4001)
 

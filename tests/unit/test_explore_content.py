@@ -10,7 +10,7 @@ from fdspec.errors import InvalidInput
 from fdspec.explore.content import Content, embedded
 from fdspec.explore.indices import INDICES
 from fdspec.explore.packing import pack
-from fdspec.sweep import ON_REQUEST, OUTPUTS
+from fdspec.runs.sweep import ON_REQUEST, OUTPUTS
 from fdspec.units import G
 from tests.cubes import synthetic_building_cube, synthetic_cube, synthetic_history
 from tests.explored import PRETENSION, record_numbers, small_cube, unpack

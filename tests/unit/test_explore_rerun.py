@@ -12,7 +12,7 @@ from fdspec.errors import InvalidInput, RecordError
 from fdspec.explore.best import packed_best
 from fdspec.explore.motions import Found, Motions, read_given
 from fdspec.explore.rerun import COMPARED, LOOP_FINER, Rerun, loop
-from fdspec.motion import GroundMotion
+from fdspec.model.motion import GroundMotion
 from fdspec.units import G
 from tests.explored import PERIOD, own_motion, small_cube, unpack
 

@@ -7,7 +7,7 @@ from contextlib import suppress
 
 import pytest
 
-from fdspec.fanout import interrupted_at_last
+from fdspec.scheduling.threads import interrupted_at_last
 
 
 def swallow_an_interrupt(reached: list[str]) -> None:

@@ -9,9 +9,9 @@ from matplotlib.figure import Figure
 
 from fdspec.errors import InvalidInput
 from fdspec.figures import plot_histories, plot_record, plot_spectra
-from fdspec.intensity import arias_time, husid, intensity
-from fdspec.motion import GroundMotion
-from fdspec.spectra import elastic_spectra
+from fdspec.model.motion import GroundMotion
+from fdspec.signals.intensity import arias_time, husid, intensity
+from fdspec.signals.spectra import elastic_spectra
 from fdspec.units import G
 
 PERIODS = np.linspace(0.02, 2.0, 25)

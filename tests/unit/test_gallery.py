@@ -5,9 +5,15 @@ import pytest
 import xarray as xr
 
 from fdspec.errors import InvalidInput
-from fdspec.gallery import RECORD_FIGURES, applied_motions, chosen, methods_compared, study_pictures
-from fdspec.motion import GroundMotion
+from fdspec.model.motion import GroundMotion
 from fdspec.records import catalogue, load_record
+from fdspec.report.study_figures import (
+    RECORD_FIGURES,
+    applied_motions,
+    chosen,
+    methods_compared,
+    study_pictures,
+)
 from fdspec.units import G
 from tests.cubes import synthetic_cube
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fdspec.errors import InvalidInput
-from fdspec.grid import GRID_FIELDS, Grid
+from fdspec.model.grid import GRID_FIELDS, Grid
 
 AXES = {"stiffness_ratio": [1.0, 4.0], "pretension": [0.0, 100e3, np.inf], "period": [0.1, 0.2, 0.5, 1.0]}
 

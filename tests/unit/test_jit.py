@@ -1,4 +1,4 @@
-"""What fdspec.jit asks of the compiler, looked up in what came of it."""
+"""What fdspec.compiler.options asks of the compiler, looked up in what came of it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 from llvmlite.binding import get_host_cpu_features
 from numba import config
 
-from fdspec.jit import fma, inlined, inner, seldom, wide
+from fdspec.compiler.options import fma, inlined, inner, seldom, wide
 
 needs_wide_vectors = pytest.mark.skipif(
     bool(config.DISABLE_JIT) or not get_host_cpu_features().get("avx512f"),

@@ -11,14 +11,14 @@ from pathlib import Path
 
 import pytest
 
-from fdspec.kernel_cache import cache_folder, compiling, prune
+from fdspec.compiler.cache import cache_folder, compiling, prune
 
 KEY = "0123456789abcdef"
 
 TEN = """
 import sys, time
 from pathlib import Path
-from fdspec.kernel_cache import compiling
+from fdspec.compiler.cache import compiling
 
 folder, log = Path(sys.argv[1]), Path(sys.argv[2])
 with compiling(folder, "kernel"):
@@ -74,7 +74,7 @@ def test_the_lock_of_a_killed_process_is_free(tmp_path: Path) -> None:
     script = f"""
 import os, signal
 from pathlib import Path
-from fdspec.kernel_cache import compiling
+from fdspec.compiler.cache import compiling
 with compiling(Path({str(tmp_path)!r}), "kernel"):
     os.kill(os.getpid(), signal.SIGKILL)
 """

@@ -7,13 +7,13 @@ import math
 import numpy as np
 import pytest
 
-from fdspec.building import Building, DampingMatrix, ModalDamping, RayleighDamping
-from fdspec.course import Course, Span
+from fdspec.engines.many_storeys import integrate_many_storeys
+from fdspec.engines.single_storey import integrate_single_storey
+from fdspec.engines.trajectory import Course, Span
 from fdspec.errors import InvalidInput
-from fdspec.kernels.taylor import LONGEST_PHASE, TERMS, TRUNCATION, order_for
-from fdspec.many_storeys import integrate_many_storeys
-from fdspec.motion import GroundMotion
-from fdspec.single_storey import integrate_single_storey
+from fdspec.kernels.frame.taylor import LONGEST_PHASE, TERMS, TRUNCATION, order_for
+from fdspec.model.building import Building, DampingMatrix, ModalDamping, RayleighDamping
+from fdspec.model.motion import GroundMotion
 from tests.reference import numbers
 
 GROUND, DT = numbers.motion("mdof_peaks.json")

@@ -7,7 +7,6 @@ import pytest
 import xarray as xr
 
 import fdspec
-from fdspec.building import Building
 from fdspec.errors import InvalidInput
 from fdspec.measures import (
     best_for_all,
@@ -21,8 +20,9 @@ from fdspec.measures import (
     slip_load_spectrum,
 )
 from fdspec.measures.indices import INDICES, name_of, weights_of
-from fdspec.motion import GroundMotion
-from fdspec.sweep import ON_REQUEST, OUTPUTS
+from fdspec.model.building import Building
+from fdspec.model.motion import GroundMotion
+from fdspec.runs.sweep import ON_REQUEST, OUTPUTS
 
 DIMS = ("record", "stiffness_ratio", "pretension", "period")
 AXES: dict[str, Any] = {

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from fdspec.errors import InvalidInput
-from fdspec.motion import GroundMotion
+from fdspec.model.motion import GroundMotion
 
 SAMPLES = [0.0, 1.5, -2.0, 0.25]
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from fdspec.errors import InvalidInput
-from fdspec.intensity import arias_time, displacement, husid, intensity, mean_period, velocity
-from fdspec.motion import GroundMotion
+from fdspec.model.motion import GroundMotion
+from fdspec.signals.intensity import arias_time, displacement, husid, intensity, mean_period, velocity
 from fdspec.units import G
 
 RAMP = GroundMotion(np.arange(5.0), 0.5)  # a = 2 t up to t = 2

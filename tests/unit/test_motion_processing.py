@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from fdspec.errors import InvalidInput
-from fdspec.intensity import husid, velocity
-from fdspec.motion import GroundMotion
-from fdspec.processing import (
+from fdspec.model.motion import GroundMotion
+from fdspec.signals.intensity import husid, velocity
+from fdspec.signals.processing import (
     band_passed,
     baseline_corrected,
     padded,

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.linalg import expm
 
-from fdspec.kernels.oscillator import (
+from fdspec.kernels.mathematics.oscillator import (
     MOST,
     SHORT_ANGLE,
     TERMS,
@@ -27,8 +27,8 @@ from fdspec.kernels.oscillator import (
     step_map,
     undamped_ahead,
 )
-from fdspec.kernels.plan import RADIANS
-from fdspec.kernels.quadrature import SHORT, series_area, series_square, short_square, square_form
+from fdspec.kernels.mathematics.quadrature import SHORT, series_area, series_square, short_square, square_form
+from fdspec.kernels.storey.constants import RADIANS
 
 OSCILLATORS = [
     (0.0, 400.0, 0.03),

@@ -38,7 +38,7 @@ def test_unknown_name_raises_attribute_error() -> None:
 
 @pytest.mark.parametrize("name", ["simulate", "sweep", "sweep_buildings"])
 @pytest.mark.parametrize(
-    "first", ["import fdspec.{0}", "from fdspec.{0} import {0}", "import fdspec; fdspec.{0}"]
+    "first", ["import fdspec.runs.{0}", "from fdspec.runs.{0} import {0}", "import fdspec; fdspec.{0}"]
 )
 def test_function_wins_over_module_of_the_same_name(name: str, first: str) -> None:
     kind = run(f"{first.format(name)}; import fdspec; print(type(fdspec.{name}).__name__)")

@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from fdspec.progress import progress
+from fdspec.scheduling.progress import progress
 
 
 class Terminal(io.StringIO):

@@ -12,9 +12,9 @@ import pytest
 import xarray as xr
 
 import fdspec
-from fdspec import resumable
 from fdspec.errors import DiskError, InvalidInput, StoreError
-from fdspec.resumable import differences, identity_of, plan_blocks
+from fdspec.runs import resumable
+from fdspec.runs.resumable import differences, identity_of, plan_blocks
 from fdspec.store import chunks
 from fdspec.store.conversion import to_netcdf
 from fdspec.variables import CUBE, STUDY_DIMS
@@ -174,7 +174,7 @@ def test_another_version_is_refused(motions: Motions, store: Path, monkeypatch: 
         patch.setattr(sys.modules["fdspec.store.provenance"], "__version__", "9.9")
         with pytest.raises(StoreError, match='fdspec_version is "0.1.0" in the store, "9.9" in the study'):
             fdspec.sweep(motions, **AXES, store=store)
-    monkeypatch.setattr("fdspec.jit.source_key", lambda: "another")
+    monkeypatch.setattr("fdspec.compiler.options.source_key", lambda: "another")
     with pytest.raises(StoreError, match='kernels_source is "[0-9a-f]{16}" in the store, "another" in'):
         fdspec.sweep(motions, **AXES, store=store)
 

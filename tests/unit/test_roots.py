@@ -10,7 +10,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from fdspec.kernels.roots import NO_ROOT, clears, first_root, largest_magnitude, value, value_slope
+from fdspec.kernels.mathematics.polynomial_roots import (
+    NO_ROOT,
+    clears,
+    first_root,
+    largest_magnitude,
+    value,
+    value_slope,
+)
 
 SAMPLES = np.linspace(0.0, 1.0, 4001)
 

@@ -7,10 +7,10 @@ import pytest
 
 import fdspec
 from fdspec.errors import IntegrationError
-from fdspec.kernels import walk as walking
-from fdspec.kernels.oscillator import TERMS
-from fdspec.kernels.plan import RADIANS, plan
-from fdspec.kernels.traces import TRACES
+from fdspec.kernels.mathematics.oscillator import TERMS
+from fdspec.kernels.storey import step as walking
+from fdspec.kernels.storey.constants import RADIANS, plan
+from fdspec.kernels.storey.output import TRACES
 from fdspec.kernels.types import (
     N_STATE,
     NON_FINITE_STATE,

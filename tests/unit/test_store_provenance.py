@@ -9,7 +9,7 @@ import pytest
 import fdspec
 from fdspec import store
 from fdspec.errors import InvalidInput
-from fdspec.motion import GroundMotion
+from fdspec.model.motion import GroundMotion
 from fdspec.store.provenance import provenance
 from tests.cubes import synthetic_cube
 

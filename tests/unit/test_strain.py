@@ -6,12 +6,12 @@ from numpy.typing import NDArray
 from scipy.integrate import simpson
 
 import fdspec
-from fdspec import strain
-from fdspec.building import Building
-from fdspec.damping import ModalDamping
-from fdspec.motion import GroundMotion
-from fdspec.strain import strain_of_frame, strain_of_storeys
-from fdspec.sweep import ON_REQUEST, OUTPUTS, STRAIN
+from fdspec.engines import strain
+from fdspec.engines.strain import strain_of_frame, strain_of_storeys
+from fdspec.model.building import Building
+from fdspec.model.damping import ModalDamping
+from fdspec.model.motion import GroundMotion
+from fdspec.runs.sweep import ON_REQUEST, OUTPUTS, STRAIN
 from tests.cells import Cell, draw
 
 FINE = 512

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from fdspec.errors import RecordError, StudyError
-from fdspec.grid import GRID_FIELDS, Grid
+from fdspec.model.grid import GRID_FIELDS, Grid
 from fdspec.records import catalogue
-from fdspec.study import OUTPUTS, STUDY_RECORDS, RecordFile, Study, even_axis, find_record
+from fdspec.runs.study import OUTPUTS, STUDY_RECORDS, RecordFile, Study, even_axis, find_record
 
 
 def same(one: Study, other: Study) -> bool:

@@ -13,7 +13,7 @@ import xarray as xr
 
 import fdspec
 from fdspec.errors import InvalidInput
-from fdspec.sweep_buildings import OUTPUTS
+from fdspec.runs.sweep_buildings import OUTPUTS
 
 AXES: dict[str, Any] = {"slip_scale": [0.0, 0.3, 1.0, np.inf], "stiffness_scale": [0.5, 1.0, 3.0]}
 OVER_TIME = ("slip_travel", "storey_friction_energy", "input_energy")

@@ -1,6 +1,6 @@
 """The line each key of a TOML text stands on."""
 
-from fdspec.toml_lines import key_lines, line_of
+from fdspec.model.toml_lines import key_lines, line_of
 
 TEXT = """\
 # period = 1

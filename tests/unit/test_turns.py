@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fdspec.kernels.oscillator import TERMS, expand, series_order
-from fdspec.kernels.plan import Branch, branch
-from fdspec.kernels.roots import largest_magnitude
-from fdspec.kernels.turns import Weights, top_inside
+from fdspec.kernels.mathematics.extremum import Weights, top_inside
+from fdspec.kernels.mathematics.oscillator import TERMS, expand, series_order
+from fdspec.kernels.mathematics.polynomial_roots import largest_magnitude
+from fdspec.kernels.storey.constants import Branch, branch
 from fdspec.kernels.types import Force, Motion
 
 FLOOR_MASS, BRACE_MASS = 20e3, 50.0

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from fdspec.errors import InvalidInput
-from fdspec.motion import GroundMotion
+from fdspec.model.motion import GroundMotion
 from fdspec.units import G
 from fdspec.validation import four_storey, single_storey_k_braced
 from fdspec.validation.kalamata import read_kalamata, stand_in

@@ -5,7 +5,8 @@ import pytest
 import xarray as xr
 
 from fdspec.errors import InvalidInput
-from fdspec.kernels import newmark, types
+from fdspec.kernels import types
+from fdspec.kernels.fixed_step import newmark
 from fdspec.variables import (
     BUILDING_CUBE,
     BUILDING_DIMS,

@@ -19,10 +19,10 @@ import pytest
 import xarray as xr
 
 import fdspec
-from fdspec import cluster
 from fdspec.cli import main
 from fdspec.errors import ClusterError, DiskError
-from fdspec.fanout import Task
+from fdspec.scheduling import cluster
+from fdspec.scheduling.threads import Task
 from fdspec.store import chunks
 from tests.unit.test_sweep import record
 

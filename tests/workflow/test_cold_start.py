@@ -28,7 +28,7 @@ def motion() -> fdspec.GroundMotion:
 
 def spectra() -> str:
     """Return a checksum of what the kernel that compiles fastest computes."""
-    from fdspec.spectra import elastic_spectra
+    from fdspec.signals.spectra import elastic_spectra
 
     return hashlib.sha256(elastic_spectra(motion(), [0.2, 1.0]).absolute_acceleration.values).hexdigest()
 

@@ -12,7 +12,7 @@ import pytest
 import fdspec
 from fdspec import store
 from fdspec.cli import main
-from fdspec.study import Study
+from fdspec.runs.study import Study
 from fdspec.units import G
 
 STUDY = """\
@@ -163,7 +163,7 @@ def test_a_wrong_study_is_refused_and_leaves_nothing(
 def test_an_output_that_cannot_be_written_is_told_before_the_work(
     folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, output: str
 ) -> None:
-    monkeypatch.setattr("fdspec.study.Study.motions", lambda _: pytest.fail("the work had started"))
+    monkeypatch.setattr("fdspec.runs.study.Study.motions", lambda _: pytest.fail("the work had started"))
     assert "cannot write" in refused(capsys, "sweep", "mine.toml", "-o", output)
     assert "cannot write" in refused(
         capsys, "simulate", "--record", "FSR1", *ONE, "--slip-force", "1", "-o", output

@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 
 import fdspec
-from fdspec.grid import Grid
 from fdspec.measures import study_claims
 from fdspec.measures.claims import verdict_of_claim
-from fdspec.study import STUDY_RECORDS
+from fdspec.model.grid import Grid
+from fdspec.runs.study import STUDY_RECORDS
 
 README = Path(__file__).parents[2] / "README.md"
 

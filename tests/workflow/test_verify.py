@@ -118,7 +118,7 @@ def test_the_full_table_holds() -> None:
 def without_interior_extrema(package: Path) -> None:
     """Have the search for a turn between two points give the first of them."""
     head = r"(def locate_turn\(.*?\):\n    \"\"\".*?\"\"\"\n)"
-    replace(package / "kernels" / "roots.py", head, r"\1    return a\n")
+    replace(package / "kernels" / "mathematics" / "polynomial_roots.py", head, r"\1    return a\n")
 
 
 def with_friction_swapped(package: Path) -> None:

@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from fdspec.jit import inner, wide
+from fdspec.compiler.options import inner, wide
 from fdspec.kernels.frame_batch.eight import WIDTH, fma8, less8, load, splat, store
 from fdspec.kernels.frame_batch.layout import (
     END,
@@ -25,7 +25,7 @@ from fdspec.kernels.frame_batch.layout import (
     row,
     term,
 )
-from fdspec.kernels.taylor import DISPLACEMENT, OFFSET, SLIDING, TERMS, VELOCITY
+from fdspec.kernels.frame.taylor import DISPLACEMENT, OFFSET, SLIDING, TERMS, VELOCITY
 
 _k = np.arange(TERMS + 1.0)
 ONCE: Final = 1.0 / (_k + 1.0)

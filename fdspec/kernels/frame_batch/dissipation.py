@@ -6,7 +6,7 @@ are enough.
 
 from __future__ import annotations
 
-from fdspec.jit import inner, wide
+from fdspec.compiler.options import inner, wide
 from fdspec.kernels.frame_batch.advance import ONCE
 from fdspec.kernels.frame_batch.eight import WIDTH, fma8, load, splat, store
 from fdspec.kernels.frame_batch.layout import (
@@ -25,8 +25,8 @@ from fdspec.kernels.frame_batch.layout import (
     row,
     term,
 )
-from fdspec.kernels.quadrature import FEW_NODES, FEW_WEIGHTS, NODES, WEIGHTS
-from fdspec.kernels.taylor import SLIDING, VELOCITY
+from fdspec.kernels.mathematics.quadrature import FEW_NODES, FEW_WEIGHTS, NODES, WEIGHTS
+from fdspec.kernels.frame.taylor import SLIDING, VELOCITY
 
 FIVE = len(FEW_NODES)
 

@@ -12,8 +12,8 @@ from typing import Final
 import numpy as np
 from numba import types
 
-from fdspec.jit import entry, float2d, float3d, inner, int1d, wide
-from fdspec.kernels.frame import MODEL_ROWS, fastest_rate
+from fdspec.compiler.options import entry, float2d, float3d, inner, int1d, wide
+from fdspec.kernels.frame.model import MODEL_ROWS, fastest_rate
 from fdspec.kernels.frame_batch.advance import add_input, advance
 from fdspec.kernels.frame_batch.dissipation import add_dissipation
 from fdspec.kernels.frame_batch.eight import WIDTH, load, store
@@ -36,11 +36,11 @@ from fdspec.kernels.frame_batch.layout import (
 )
 from fdspec.kernels.frame_batch.peaks import raise_peaks
 from fdspec.kernels.frame_batch.search import search
-from fdspec.kernels.frame_phase import TALLY_ROWS
-from fdspec.kernels.frame_search import SAME_INSTANT
-from fdspec.kernels.frame_step import change_phases
-from fdspec.kernels.mdof import COUNTS, NO_TIME
-from fdspec.kernels.taylor import TERMS, longest_phase
+from fdspec.kernels.frame.reset import TALLY_ROWS
+from fdspec.kernels.frame.guard import SAME_INSTANT
+from fdspec.kernels.frame.step import change_phases
+from fdspec.kernels.frame.history import COUNTS, NO_TIME
+from fdspec.kernels.frame.taylor import TERMS, longest_phase
 from fdspec.kernels.types import NON_FINITE_STATE, OK, TRANSITION_CAP, TRANSITION_CAP_REACHED
 
 PARTS_OF_RADIAN: Final = 32
@@ -253,7 +253,7 @@ def integrate_frames(
     """Integrate histories of frames of N storeys from rest, none of whose braces is massless.
 
     frames (m, FRAME_ROWS, N); stiffnesses, dampings (b, N, N), or (b, 0, 0): the dense matrices, of which
-    history i takes number dense[i]; see :mod:`fdspec.kernels.frame`.  damped, grounded, loose: whether any
+    history i takes number dense[i]; see :mod:`fdspec.kernels.frame.model`.  damped, grounded, loose: whether any
     dashpot stands between neighbours, any spring or dashpot on the ground, any dashpot beside a brace.
     ground: acceleration at the samples dt apart, m/s2, (n,).  radians: longest phase of a step.
 

@@ -3,7 +3,7 @@
 Per storey two series are kept, in powers of the fraction of the step: I, the floor's absolute acceleration,
 and Q, the acceleration of its sliding where it slips, else the reaction of its damper.  Displacements and
 velocities are these integrated from the step's start.  With drift g and brace force B as in
-:mod:`fdspec.kernels.frame`, and P the force on the floor without its own damper:
+:mod:`fdspec.kernels.frame.model`, and P the force on the floor without its own damper:
 
     stick   I = (P - B) / (m_f + m_d)        Q = R = (m_d P + m_f B) / (m_f + m_d)
     slip    I = (P - s F) / m_f              Q = P / m_f + B / m_d - (1/m_f + 1/m_d) s F
@@ -14,7 +14,7 @@ its numbers are those it has alone.
 
 from __future__ import annotations
 
-from fdspec.jit import inlined, inner, wide
+from fdspec.compiler.options import inlined, inner, wide
 from fdspec.kernels.frame_batch.eight import WIDTH, abs8, fma8, less8, load, splat, store, where_above
 from fdspec.kernels.frame_batch.layout import (
     COLUMN_DASHPOTS,
@@ -47,8 +47,8 @@ from fdspec.kernels.frame_batch.layout import (
     row,
     term,
 )
-from fdspec.kernels.oscillator import INVERSE
-from fdspec.kernels.taylor import DISPLACEMENT, OFFSET, SLIDING, VELOCITY
+from fdspec.kernels.mathematics.oscillator import INVERSE
+from fdspec.kernels.frame.taylor import DISPLACEMENT, OFFSET, SLIDING, VELOCITY
 
 
 @inlined

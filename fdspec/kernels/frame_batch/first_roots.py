@@ -1,4 +1,4 @@
-"""First roots of eight polynomials at once, by the bounds of :mod:`fdspec.kernels.roots`.
+"""First roots of eight polynomials at once, by the bounds of :mod:`fdspec.kernels.mathematics.polynomial_roots`.
 
 Each begins above zero and is looked at on the four quarters of [0, 1], one after another: its Bezier
 ordinates clear a quarter, or its slope or its curvature, which provably keep one sign there, leave room for
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from fdspec.jit import inner, wide
+from fdspec.compiler.options import inner, wide
 from fdspec.kernels.frame_batch.eight import (
     ALL,
     WIDTH,
@@ -23,7 +23,7 @@ from fdspec.kernels.frame_batch.eight import (
     where_above,
     where_in,
 )
-from fdspec.kernels.roots import CLOSE, NEWTON_STEPS, NO_ROOT, TAIL
+from fdspec.kernels.mathematics.polynomial_roots import CLOSE, NEWTON_STEPS, NO_ROOT, TAIL
 
 QUARTER: Final = 0.25
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fdspec.jit import inlined, inner, wide
+from fdspec.compiler.options import inlined, inner, wide
 from fdspec.kernels.frame_batch.eight import ALL, WIDTH, above, abs8, fma8, less8, load, max8, splat, sqrt8, store
 from fdspec.kernels.frame_batch.layout import (
     DASHPOT,
@@ -27,7 +27,7 @@ from fdspec.kernels.frame_batch.layout import (
     row,
     term,
 )
-from fdspec.kernels.taylor import DISPLACEMENT, OFFSET, SLIDING, VELOCITY
+from fdspec.kernels.frame.taylor import DISPLACEMENT, OFFSET, SLIDING, VELOCITY
 
 
 @inner

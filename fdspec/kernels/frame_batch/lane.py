@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
-from fdspec.jit import inner
-from fdspec.kernels import frame as rows
-from fdspec.kernels.frame import NO_BRACE, fastest_rate, held_rates, kind_of, prepare, rate_of, set_phase
+from fdspec.compiler.options import inner
+from fdspec.kernels.frame import model as rows
+from fdspec.kernels.frame.model import NO_BRACE, fastest_rate, held_rates, kind_of, prepare, rate_of, set_phase
 from fdspec.kernels.frame_batch.eight import WIDTH
 from fdspec.kernels.frame_batch.layout import (
     COLUMN_DASHPOTS,
@@ -39,9 +39,9 @@ from fdspec.kernels.frame_batch.layout import (
     VISCOUS,
     row,
 )
-from fdspec.kernels.frame_energy import stored_energy
-from fdspec.kernels.frame_phase import RELEASE, TALLY_ROWS, begin_slip, travel_so_far
-from fdspec.kernels.taylor import DISPLACEMENT, OFFSET, VELOCITY
+from fdspec.kernels.frame.energy import stored_energy
+from fdspec.kernels.frame.reset import RELEASE, TALLY_ROWS, begin_slip, travel_so_far
+from fdspec.kernels.frame.taylor import DISPLACEMENT, OFFSET, VELOCITY
 from fdspec.kernels.types import NON_FINITE_STATE, OK, STICK
 
 
@@ -145,7 +145,7 @@ def is_finite(p, block, size, lane):
 @inner
 def finish(p, at, size, lane, frame, stiffness, phase, state, tally, transitions, status, certify, by_storey,
            totals):  # fmt: skip
-    """Fill a history's results, as `fdspec.kernels.mdof.integrate` does, from the rows END."""
+    """Fill a history's results, as `fdspec.kernels.frame.history.integrate` does, from the rows END."""
     take_state(p, END, size, lane, state)
     friction = 0.0
     for r in range(PEAKS):

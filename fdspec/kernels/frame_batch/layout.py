@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from typing import Final, NamedTuple
 
-from fdspec.jit import inlined, inner
+from fdspec.compiler.options import inlined, inner
 from fdspec.kernels.frame_batch.eight import WIDTH
-from fdspec.kernels.quadrature import NODES
-from fdspec.kernels.taylor import TERMS
+from fdspec.kernels.mathematics.quadrature import NODES
+from fdspec.kernels.frame.taylor import TERMS
 
 # Rows of a history.
 LENGTH, ORDER, GROUND, RISE, FRACTION, TAU, RATE, INPUT, VISCOUS = range(9)
@@ -42,14 +42,14 @@ HISTORY_ROWS: Final = 9
     SLOWNESS,
     OMEGA,
 ) = range(20)
-"""COMPLIANCE, HELD, FRICTION as in `fdspec.kernels.frame`.  OF_FLOOR and OF_BRACE weigh the forces on floor
+"""COMPLIANCE, HELD, FRICTION as in `fdspec.kernels.frame.model`.  OF_FLOOR and OF_BRACE weigh the forces on floor
 and brace in what decides the storey's phase: its reaction while it sticks, the acceleration of its sliding
 while it slips.  SLIDES is then 1, else 0, SIGN its direction, LOOSE_MASS the brace's mass, else 0.  LIMIT: slip
 force, infinite without a brace; SPECIAL: 1 where a phase has just begun; OVER_BRACE: 1 / m_d, SLOWNESS:
 sqrt(m_d / k_d), OMEGA its inverse, 0 without a brace."""
 
 START, END, NOW = 20, 24, 28
-"""First of the rows of a state, as in `fdspec.kernels.taylor`: at the start of the step, at the end of what is
+"""First of the rows of a state, as in `fdspec.kernels.frame.taylor`: at the start of the step, at the end of what is
 taken of it, and coefficients of the power in hand."""
 PULL: Final = 32
 """What dense matrices ask for, N."""
@@ -58,7 +58,7 @@ INERTIA_REACH, JERK_REACH, SECOND_REACH = range(3)
 """Sums over k >= 1 of |I_k|, k |I_k|, |Q_k|; see :mod:`fdspec.kernels.frame_batch.expand`."""
 PEAK: Final = 36
 PEAKS: Final = 6
-"""Peaks so far, in the order of `fdspec.kernels.frame_peaks`."""
+"""Peaks so far, in the order of `fdspec.kernels.frame.peaks`."""
 LAST, RING = 42, 43
 """Absolute acceleration of the floor at the end of what is taken, m/s2; bound on the velocity with which a
 slipping brace swings about the floor below, m/s."""

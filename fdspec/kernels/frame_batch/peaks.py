@@ -6,7 +6,7 @@ second derivative; accelerations leave that at the start by at most their reach.
 
 from __future__ import annotations
 
-from fdspec.jit import inlined, inner, wide
+from fdspec.compiler.options import inlined, inner, wide
 from fdspec.kernels.frame_batch.eight import ALL, WIDTH, above, abs8, fma8, less8, load, max8, min8, splat, store
 from fdspec.kernels.frame_batch.layout import (
     END,
@@ -32,7 +32,7 @@ from fdspec.kernels.frame_batch.layout import (
     term,
 )
 from fdspec.kernels.frame_batch.advance import ONCE, TWICE
-from fdspec.kernels.frame_peaks import (
+from fdspec.kernels.frame.peaks import (
     PEAK_ACCELERATION,
     PEAK_BRACE_DISPLACEMENT,
     PEAK_DISPLACEMENT,
@@ -40,8 +40,8 @@ from fdspec.kernels.frame_peaks import (
     PEAK_SHEAR,
     PEAK_VELOCITY,
 )
-from fdspec.kernels.roots import largest_magnitude
-from fdspec.kernels.taylor import DISPLACEMENT, OFFSET, SLIDING, VELOCITY
+from fdspec.kernels.mathematics.polynomial_roots import largest_magnitude
+from fdspec.kernels.frame.taylor import DISPLACEMENT, OFFSET, SLIDING, VELOCITY
 
 
 @inner

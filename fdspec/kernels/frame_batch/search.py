@@ -6,14 +6,14 @@ a time, of whichever histories they are.
 
 from __future__ import annotations
 
-from fdspec.jit import inner
-from fdspec.kernels.frame import SLIP_FORCE
+from fdspec.compiler.options import inner
+from fdspec.kernels.frame.model import SLIP_FORCE
 from fdspec.kernels.frame_batch.eight import ALL, WIDTH
 from fdspec.kernels.frame_batch.first_roots import first_roots
 from fdspec.kernels.frame_batch.layout import LENGTH, REACH, SECOND, SECOND_REACH, START, row, term
-from fdspec.kernels.oscillator import INVERSE
-from fdspec.kernels.roots import NO_ROOT, first_root
-from fdspec.kernels.taylor import SLIDING, TERMS
+from fdspec.kernels.mathematics.oscillator import INVERSE
+from fdspec.kernels.mathematics.polynomial_roots import NO_ROOT, first_root
+from fdspec.kernels.frame.taylor import SLIDING, TERMS
 from fdspec.kernels.types import STICK
 
 

@@ -1,0 +1,1 @@
+"""numba: its options, the cache of compiled kernels."""

@@ -1,0 +1,1 @@
+"""Buildings and motions to arrays, kernels, and back."""

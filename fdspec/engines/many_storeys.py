@@ -1,0 +1,139 @@
+"""The N-storey engine: hands the kernel its arrays and takes them back."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fdspec.engines.trajectory import Course, FloatArray, IntArray, Span
+from fdspec.errors import InvalidInput
+from fdspec.kernels.frame.history import RADIANS, STOREY_RESULTS, TOTALS, integrate
+from fdspec.kernels.frame.output import STOREY_TRACES, TOTAL_TRACES
+from fdspec.model.building import Building, Frame
+from fdspec.model.motion import GroundMotion
+
+
+def peaks_of(frame: Frame, motion: GroundMotion, *, certify: bool) -> tuple[FloatArray, FloatArray]:
+    """Integrate a frame from rest, without its course in time.
+
+    certify: whether the balance of all energies is wanted.  Returns the rows of STOREY_RESULTS for each
+    storey (rows, N), and TOTALS.
+    """
+    size = frame.properties.shape[1]
+    by_storey = np.empty((len(STOREY_RESULTS), size))
+    totals = np.empty(len(TOTALS))
+    integrate(
+        frame.properties,
+        frame.dense_stiffness,
+        frame.dense_damping,
+        motion.acceleration,
+        motion.dt,
+        0,
+        certify,
+        np.zeros((4, size)),
+        RADIANS,
+        0,
+        np.empty(0),
+        np.empty(0, np.int64),
+        np.empty(0, np.int64),
+        motion.dt,
+        np.empty((0, len(STOREY_TRACES), size)),
+        np.empty((0, len(TOTAL_TRACES))),
+        by_storey,
+        totals,
+    )
+    return by_storey, totals
+
+
+def integrate_many_storeys(
+    building: Building,
+    motion: GroundMotion,
+    span: Span,
+    start: FloatArray,
+    radians: float = RADIANS,
+    extra_terms: int = 0,
+) -> Course:
+    """Integrate a building of any number of storeys.
+
+    start: displacement and velocity of floors and braces, (2, 2, N), m and m/s.  radians: longest
+    phase of a step; extra_terms: terms of the series beyond those that rounding leaves; neither moves
+    a result.
+    """
+    size = building.n_storeys
+    frame = building.frame
+    apart = (start[1, 0] != start[1, 1]) & np.isinf(building.slip_force) & (building.brace_mass > 0.0)
+    if apart.any():
+        storey = int(np.argmax(apart))
+        raise InvalidInput(
+            f"initial_velocity of floor and brace must be equal where the damper never slips, "
+            f"got {start[1, 0, storey]:g} and {start[1, 1, storey]:g} m/s in storey {storey + 1}"
+        )
+    state = np.ascontiguousarray(start.transpose(1, 0, 2).reshape(4, size))
+    by_storey = np.empty((len(STOREY_RESULTS), size))
+    totals = np.empty(len(TOTALS))
+    no_traces = np.empty((0, len(STOREY_TRACES), size)), np.empty((0, len(TOTAL_TRACES)))
+
+    def run(
+        times: FloatArray, storeys: IntArray, phases: IntArray, traces: FloatArray, energies: FloatArray
+    ) -> None:
+        integrate(
+            frame.properties,
+            frame.dense_stiffness,
+            frame.dense_damping,
+            motion.acceleration,
+            motion.dt,
+            span.free_steps,
+            True,
+            state,
+            radians,
+            extra_terms,
+            times,
+            storeys,
+            phases,
+            span.dt_out,
+            traces,
+            energies,
+            by_storey,
+            totals,
+        )
+
+    def room(changes: int) -> tuple[FloatArray, IntArray, IntArray]:
+        return np.empty(changes), np.empty(changes, np.int64), np.empty(changes, np.int64)
+
+    # Twice: how many changes of phase there are is known at the end.
+    run(*room(0), *no_traces)
+    changes = room(int(totals[TOTALS.index("transitions")]))
+    traces = np.full((span.outputs, len(STOREY_TRACES), size), np.nan)
+    energies = np.full((span.outputs, len(TOTAL_TRACES)), np.nan)
+    run(*changes, traces, energies)
+
+    course = {name: np.ascontiguousarray(traces[:, i]) for i, name in enumerate(STOREY_TRACES)}
+    work = {name: np.ascontiguousarray(energies[:, i]) for i, name in enumerate(TOTAL_TRACES)}
+    result = dict(zip(STOREY_RESULTS, by_storey, strict=True))
+    total = dict(zip(TOTALS, totals, strict=True))
+    return Course(
+        displacement=course["displacement"],
+        velocity=course["velocity"],
+        acceleration=course["acceleration"],
+        brace_displacement=course["brace_displacement"],
+        brace_velocity=course["brace_velocity"],
+        friction_force=course["friction_force"],
+        phase=np.nan_to_num(course["phase"]).astype(np.int64),
+        slip_travel=course["slip_travel"],
+        storey_friction_energy=course["storey_friction_energy"],
+        storey_shear=course["storey_shear"],
+        input_energy=work["input_energy"],
+        viscous_energy=work["viscous_energy"],
+        transition_time=changes[0],
+        transition_storey=changes[1],
+        transition_phase=changes[2],
+        peak_acceleration=result["peak_acceleration"],
+        peak_displacement=result["peak_displacement"],
+        peak_velocity=result["peak_velocity"],
+        peak_drift=result["peak_drift"],
+        peak_storey_shear=result["peak_storey_shear"],
+        peak_base_shear=float(result["peak_storey_shear"][0]),
+        residual_displacement=result["residual_displacement"],
+        dissipated_energy=float(total["dissipated_energy"]),
+        energy_error=float(total["energy_error"]),
+        status=int(total["status"]),
+    )

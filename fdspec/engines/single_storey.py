@@ -1,0 +1,97 @@
+"""The single-storey engine behind `simulate`: hands the kernel its arrays and takes them back."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from fdspec.engines.trajectory import Course, FloatArray, Span
+from fdspec.errors import InvalidInput
+from fdspec.kernels.storey.constants import RADIANS
+from fdspec.kernels.storey.entry import integrate
+from fdspec.kernels.storey.history import RESULTS
+from fdspec.kernels.storey.output import TRACES
+from fdspec.kernels.types import Motion
+from fdspec.model.building import Building
+from fdspec.model.motion import GroundMotion
+
+
+def integrate_single_storey(
+    building: Building, motion: GroundMotion, span: Span, start: FloatArray, radians: float = RADIANS
+) -> Course:
+    """Integrate a building of one storey.
+
+    start: displacement and velocity of floor and brace, (2, 2, 1), m and m/s.  radians: longest
+    phase of a piece that is searched for roots; it moves no result.
+    """
+    storey = building.storey
+    if storey.brace_mass == 0.0 and storey.brace_stiffness == 0.0:  # no brace: nothing to slip on
+        storey = storey._replace(slip_force=math.inf, kinetic_slip_force=0.0)
+    state = Motion(*(float(x) for x in (start[0, 0, 0], start[1, 0, 0], start[0, 1, 0], start[1, 1, 0])))
+    if math.isinf(storey.slip_force) and state.v != state.e:
+        raise InvalidInput(
+            f"initial_velocity of floor and brace must be equal where the damper never slips, "
+            f"got {state.v:g} and {state.e:g} m/s"
+        )
+    result = np.empty(len(RESULTS))
+    no_times, no_phases = np.empty(0), np.empty(0, np.int64)
+
+    def run(
+        times: FloatArray, phases: np.ndarray[tuple[int], np.dtype[np.int64]], traces: FloatArray
+    ) -> None:
+        integrate(
+            storey,
+            motion.acceleration,
+            motion.dt,
+            span.free_steps,
+            radians,
+            state,
+            times,
+            phases,
+            span.dt_out,
+            traces,
+            result,
+        )
+
+    traces = np.full((span.outputs, len(TRACES)), np.nan)
+    run(no_times, no_phases, traces)
+    changes = int(result[RESULTS.index("transitions")])
+    times, phases = np.empty(changes), np.empty(changes, np.int64)
+    if changes:
+        run(times, phases, traces)
+    course = dict(zip(TRACES, traces.T[:, :, np.newaxis], strict=True))
+    peak = dict(zip(RESULTS, result, strict=True))
+    shear = (
+        storey.floor_stiffness * course["displacement"]
+        + storey.floor_damping * course["velocity"]
+        + storey.brace_stiffness * course["brace_displacement"]
+        + storey.brace_damping * course["brace_velocity"]
+    )
+    return Course(
+        displacement=course["displacement"],
+        velocity=course["velocity"],
+        acceleration=course["acceleration"],
+        brace_displacement=course["brace_displacement"],
+        brace_velocity=course["brace_velocity"],
+        friction_force=course["friction_force"],
+        phase=np.nan_to_num(course["phase"]).astype(np.int64),  # NaN where a broken history never came
+        slip_travel=course["slip_travel"],
+        storey_friction_energy=course["friction_energy"],
+        storey_shear=shear,
+        input_energy=course["input_energy"][:, 0],
+        viscous_energy=course["viscous_energy"][:, 0],
+        transition_time=times,
+        transition_storey=np.zeros(changes, np.int64),
+        transition_phase=phases,
+        peak_acceleration=np.array([peak["peak_acceleration"]]),
+        peak_displacement=np.array([peak["peak_displacement"]]),
+        peak_velocity=np.array([peak["peak_velocity"]]),
+        peak_drift=np.array([peak["peak_displacement"]]),
+        peak_storey_shear=np.array([peak["peak_base_shear"]]),
+        peak_base_shear=float(peak["peak_base_shear"]),
+        residual_displacement=np.array([peak["residual_displacement"]]),
+        dissipated_energy=float(peak["dissipated_energy"]),
+        energy_error=float(peak["energy_error"]),
+        status=int(peak["status"]),
+    )

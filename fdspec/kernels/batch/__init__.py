@@ -1,0 +1,1 @@
+"""Many single-storey histories side by side."""

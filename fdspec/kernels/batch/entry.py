@@ -1,0 +1,183 @@
+"""Entry points for many single-storey histories under one ground motion.
+
+`prepare` works out the constants of each; `run_lanes` takes up to WIDTH of them, which take as many
+steps a sample, through the motion side by side.  Whose neighbours they are touches no lane's numbers.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+from numba import types
+
+from fdspec.compiler.options import entry, float1d, float2d, ground1d, inner, int1d
+from fdspec.kernels.batch.deferred_peaks import N_CREST, QUANTITIES, keep_crests, settle_crests
+from fdspec.kernels.batch.layout import (
+    HELD,
+    N_ROWS,
+    SWIFT,
+    WIDTH,
+    is_calm,
+    put_lane,
+    put_state,
+    rest_lane,
+    slipping_lanes,
+    start_lane,
+    take_state,
+)
+from fdspec.kernels.batch.shelf import put_numbers, put_plan, take_plan
+from fdspec.kernels.batch.uneventful import loss_lanes, slip_lanes, stick_lanes
+from fdspec.kernels.batch.walk_lanes import walk_lanes
+from fdspec.kernels.mathematics.oscillator import TERMS, step_map
+from fdspec.kernels.storey.constants import plan, steps_per_sample
+from fdspec.kernels.storey.energy import N_FORMS, put_losses
+from fdspec.kernels.storey.history import finish
+from fdspec.kernels.storey.step import walk
+from fdspec.kernels.types import N_STATE, OK, PHASE, STATUS, STICK, Storey
+
+LINE: Final = 8
+"""Numbers in a line of the cache: a vector of 512 bits that begins elsewhere lies across two of them."""
+
+
+@entry(types.void(float2d, types.float64, types.float64, types.boolean, int1d, float2d, float2d, float2d))
+def prepare(storeys, dt, radians, certify, parts, shelf, forms, stride):
+    """Work out the constants of storeys (m, 8), rows of `Storey`.
+
+    Filled: parts (m,) steps a sample; shelf (m, N_SHELF); forms (m, N_FORMS), zeros unless certify;
+    stride (m, N_STRIDE).
+    """
+    for i in range(storeys.shape[0]):
+        s = storeys[i]
+        storey = Storey(s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7])
+        parts[i] = steps_per_sample(storey, dt, radians)
+        scheme = plan(storey, dt / parts[i], radians)
+        put_plan(shelf, i, scheme)
+        put_numbers(stride, i, 0, step_map(scheme.floor.g, scheme.floor.w2, scheme.step))
+        put_numbers(stride, i, 12, step_map(scheme.brace.g, scheme.brace.w2, scheme.step))
+        forms[i] = 0.0
+        if certify:
+            put_losses(scheme, forms[i])
+
+
+@inner
+def size_of(lanes):
+    """Number of lanes in a set."""
+    size = 0
+    while lanes != 0:
+        lanes &= lanes - 1
+        size += 1
+    return size
+
+
+@entry(
+    types.void(
+        float2d,
+        float2d,
+        float2d,
+        ground1d,
+        types.float64,
+        types.int64,
+        types.boolean,
+        types.int64,
+        float2d,
+        float1d,
+    )
+)
+def run_lanes(shelf, forms, stride, ground, dt, parts, certify, crowd, results, held):
+    """Integrate up to WIDTH histories from rest.
+
+    shelf, forms, stride: their rows from `prepare`; parts: the steps a sample that all of them take.
+    certify: whether the balance of all energies is wanted; crowd: how many lanes that change phase on the
+    same step are walked side by side.
+    Filled: results (count, len(RESULTS)); held (count,), the largest reaction (N) for which the bounds
+    leave room while the storey never slips.
+    """
+    count = shelf.shape[0]
+    room = np.zeros(N_ROWS * WIDTH + LINE)
+    first = -(room.ctypes.data // room.itemsize) % LINE
+    p = room[first : first + N_ROWS * WIDTH]
+    # One state and one row of losses for all lanes: a view of an array for each walk would count references.
+    s, losses = np.zeros(N_STATE), np.zeros(N_FORMS)
+    given_up = np.zeros((WIDTH, N_STATE))
+    crests = np.zeros((WIDTH, len(QUANTITIES), N_CREST))
+    floor, brace, search = np.empty(TERMS), np.empty(TERMS), np.empty(TERMS)
+    times, phases, traces = np.empty(0), np.empty(0, np.int64), np.empty((0, 0))
+    slipping = 0
+    swift = 0
+    for lane in range(WIDTH):
+        i = min(lane, count - 1)
+        put_lane(p, lane, take_plan(shelf, i), shelf[i], forms[i], stride[i], certify)
+        start_lane(p, lane)
+        if lane >= count:
+            rest_lane(p, lane)
+        elif p[PHASE * WIDTH + lane] != STICK:
+            slipping += 1
+        swift |= 1 << lane if p[SWIFT * WIDTH + lane] != 0.0 else 0
+    step = dt / parts
+    for i in range(ground.size - 1):
+        rate = (ground[i + 1] - ground[i]) / dt
+        for j in range(parts):
+            start = ground[i] + rate * (j * step)
+            to_walk = 0
+            to_keep = 0
+            if slipping < WIDTH:
+                to_walk, to_keep = stick_lanes(p, step, start, rate)
+            if slipping > 0:
+                walks, keeps = slip_lanes(p, step, start, rate)
+                to_walk |= walks
+                to_keep |= keeps
+            if certify:
+                loss_lanes(p, start, rate, to_walk)
+            if to_walk | to_keep == 0:
+                continue
+            together = to_walk & swift
+            if not certify and size_of(together) >= crowd:
+                slipping -= size_of(slipping_lanes(p) & together)
+                back = walk_lanes(p, start, rate, together, shelf, floor, brace, search)
+                to_walk &= back | ~together
+                slipping += size_of(slipping_lanes(p) & together)
+            for lane in range(count):
+                if to_keep >> lane & 1:
+                    keep_crests(p, lane, take_plan(shelf, lane), crests, start, rate, floor, search)
+                elif to_walk >> lane & 1:
+                    take_state(p, lane, s)
+                    if certify:
+                        for k in range(N_FORMS):
+                            losses[k] = forms[lane, k]
+                    before = s[PHASE] != STICK
+                    walk(
+                        take_plan(shelf, lane),
+                        losses,
+                        s,
+                        0.0,
+                        start,
+                        rate,
+                        certify,
+                        is_calm(p, lane, s),
+                        floor,
+                        brace,
+                        search,
+                        times,
+                        phases,
+                        traces,
+                        0.0,
+                        0,
+                        0.0,
+                    )
+                    put_state(p, lane, s)
+                    after = s[PHASE] != STICK
+                    if s[STATUS] != OK:
+                        for row in range(N_STATE):
+                            given_up[lane, row] = s[row]
+                        rest_lane(p, lane)
+                        after = False
+                    slipping += (1 if after else 0) - (1 if before else 0)
+    for lane in range(count):
+        settle_crests(p, lane, take_plan(shelf, lane), crests, floor, search)
+        take_state(p, lane, s)
+        if given_up[lane, STATUS] != OK:
+            for row in range(N_STATE):
+                s[row] = given_up[lane, row]
+        finish(take_plan(shelf, lane).storey, s, certify, results[lane])
+        held[lane] = p[HELD * WIDTH + lane]

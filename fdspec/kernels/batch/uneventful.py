@@ -1,0 +1,302 @@
+"""Steps in which nothing happens, of many histories at once.
+
+One loop without a branch over the lanes, which the compiler turns into vector instructions.  Bounds
+decide lane by lane whether a step is quiet: a lane whose phase surely stays moves to the step's end, any
+other stays where it is, to walk this step by itself.  Both kinds are told as sets of lanes, a bit for each.
+
+While sticking a step is one whole piece, and the bounds are those of the walk.  While slipping the
+brace may ring many radians in a step: it swings about its quasi-static motion with an amplitude that
+does not grow, so the slowest sliding is at least the floor's slowest less that swing, and a floor
+that slides faster cannot be caught.
+"""
+
+from __future__ import annotations
+
+import math
+
+from fdspec.compiler.options import fma, inlined, inner, wide
+from fdspec.kernels.batch.layout import (
+    B_DRIFT,
+    B_G,
+    B_GROUND,
+    B_MAP,
+    B_OMEGA,
+    B_SLOW,
+    B_TAIL_E,
+    B_TAIL_Q,
+    B_W2,
+    BRACE_MASS,
+    CREST_Q,
+    CREST_S,
+    CREST_U,
+    CREST_V,
+    F_DAMP,
+    F_DRIFT,
+    F_G,
+    F_LOSS,
+    F_MAP,
+    F_SLOW,
+    F_TAIL_Q,
+    F_TAIL_U,
+    F_TAIL_V,
+    F_W2,
+    FLOOR_MASS,
+    FROM_U,
+    FROM_V,
+    HELD,
+    HOLD_O,
+    HOLD_TAIL,
+    HOLD_U,
+    HOLD_V,
+    LIFT,
+    LIGHT,
+    LIMIT,
+    MASS,
+    MUST_WALK,
+    PUSH_BRACE,
+    PUSH_FLOOR,
+    S_DAMP,
+    S_DRIFT,
+    S_G,
+    S_LOSS,
+    S_MAP,
+    S_SLOW,
+    S_TAIL_Q,
+    S_TAIL_U,
+    S_TAIL_V,
+    S_W2,
+    WIDTH,
+    at,
+)
+from fdspec.kernels.mathematics.oscillator import acceleration, dot4
+from fdspec.kernels.mathematics.polynomial_roots import THIRD
+from fdspec.kernels.types import (
+    INPUT,
+    KICK,
+    OFFSET,
+    PEAK_ACCELERATION,
+    PEAK_DISPLACEMENT,
+    PEAK_SHEAR,
+    PEAK_VELOCITY,
+    PHASE,
+    TOUCHING,
+    VISCOUS,
+    D,
+    E,
+    U,
+    V,
+)
+
+
+@inlined
+def carry(p, row, lane, x, v, p0, rate):
+    """A linear form (four rows) in displacement, velocity, force over mass and minus its rate."""
+    return dot4(
+        at(p, row, lane), x, at(p, row + 1, lane), v, at(p, row + 2, lane), p0, -at(p, row + 3, lane), rate
+    )
+
+
+@inlined
+def form(p, row, lane, x, v, p0, p1):
+    """A quadratic form (ten rows) in displacement, velocity, force over mass and its rate."""
+    of_x = dot4(
+        at(p, row, lane), x, at(p, row + 1, lane), v, at(p, row + 2, lane), p0, at(p, row + 3, lane), p1
+    )
+    of_v = fma(at(p, row + 4, lane), v, fma(at(p, row + 5, lane), p0, at(p, row + 6, lane) * p1))
+    of_p = fma(at(p, row + 7, lane), p0, at(p, row + 8, lane) * p1)
+    return fma(x, of_x, fma(v, of_v, fma(p0, of_p, at(p, row + 9, lane) * p1 * p1)))
+
+
+@inner
+def stick_lanes(p, h, ground, rate):
+    """Advance the sticking lanes in which nothing happens; return those to walk, and those to keep.
+
+    The brace's motion follows from the floor's and is left for `take_state` to tell.
+
+    To keep for their peaks are those that advance where the bounds leave room for a new one.
+    HELD keeps the largest reaction for which the bounds leave room: above it no slip force is reached.
+    """
+    wide()
+    third = h * THIRD
+    ground_end = fma(rate, h, ground)
+    steep = abs(rate)
+    to_walk = 0  # integers: sums of floats would be taken one by one, in order
+    to_keep = 0
+    for lane in range(WIDTH):
+        u = at(p, U, lane)
+        v = at(p, V, lane)
+        offset = at(p, OFFSET, lane)
+        g = at(p, S_G, lane)
+        w2 = at(p, S_W2, lane)
+        base = at(p, LIFT, lane) * offset
+        p0 = base - ground
+        u1 = carry(p, S_MAP, lane, u, v, p0, rate)
+        v1 = carry(p, S_MAP + 4, lane, u, v, p0, rate)
+        area = carry(p, S_MAP + 8, lane, u, v, p0, rate)
+        q0 = acceleration(u, v, g, w2, base)
+        q1 = acceleration(u1, v1, g, w2, base)
+        a0 = q0 - ground
+        a1 = q1 - ground_end
+        swing = fma(abs(a0), at(p, S_SLOW, lane), fma(steep, at(p, S_DRIFT, lane), abs(v)))
+
+        hold_u = at(p, HOLD_U, lane)
+        hold_v = at(p, HOLD_V, lane)
+        locked = at(p, HOLD_O, lane) * offset
+        r0 = fma(hold_u, u, fma(hold_v, v, -locked))
+        r1 = fma(hold_u, u1, fma(hold_v, v1, -locked))
+        rise0 = third * fma(hold_u, v, hold_v * a0)
+        rise1 = third * fma(hold_u, v1, hold_v * a1)
+        held = fma(swing, at(p, HOLD_TAIL, lane), max(abs(r0 + rise0), abs(r1 - rise1)))
+        held = max(max(abs(r0), abs(r1)), held)
+
+        top_a = max(at(p, PEAK_ACCELERATION, lane), abs(q1))
+        top_s = max(at(p, PEAK_SHEAR, lane), at(p, MASS, lane) * abs(q1))
+        top_u = max(at(p, PEAK_DISPLACEMENT, lane), abs(u1))
+        top_v = max(at(p, PEAK_VELOCITY, lane), abs(v1))
+        crest_u = max(abs(fma(third, v, u)), abs(fma(-third, v1, u1)))
+        crest_u = fma(swing, at(p, S_TAIL_U, lane), crest_u)
+        crest_v = max(abs(fma(third, a0, v)), abs(fma(-third, a1, v1)))
+        crest_v = fma(swing, at(p, S_TAIL_V, lane), crest_v)
+        fall0, fall1 = fma(g, a0, w2 * v), fma(g, a1, w2 * v1)
+        crest_q = max(abs(fma(-third, fall0, q0)), abs(fma(third, fall1, q1)))
+        crest_q = fma(swing, at(p, S_TAIL_Q, lane), crest_q)
+        sticks = at(p, PHASE, lane) == 0.0
+        alert = (held >= at(p, LIMIT, lane)) | (at(p, TOUCHING, lane) != 0.0)
+        peak = (crest_q > min(top_a, top_s * at(p, LIGHT, lane))) | (crest_u > top_u) | (crest_v > top_v)
+        moves = sticks & (not alert)
+        to_walk |= (1 << lane) if sticks & alert else 0
+        to_keep |= (1 << lane) if moves & peak else 0
+        moved = fma(ground, u1 - u, rate * fma(h, u1, -area))
+        p[FROM_U * WIDTH + lane] = u
+        p[FROM_V * WIDTH + lane] = v
+        p[U * WIDTH + lane] = u1 if moves else u
+        p[V * WIDTH + lane] = v1 if moves else v
+        p[PEAK_ACCELERATION * WIDTH + lane] = top_a if moves else at(p, PEAK_ACCELERATION, lane)
+        p[PEAK_DISPLACEMENT * WIDTH + lane] = top_u if moves else at(p, PEAK_DISPLACEMENT, lane)
+        p[PEAK_VELOCITY * WIDTH + lane] = top_v if moves else at(p, PEAK_VELOCITY, lane)
+        p[PEAK_SHEAR * WIDTH + lane] = top_s if moves else at(p, PEAK_SHEAR, lane)
+        p[INPUT * WIDTH + lane] -= at(p, MASS, lane) * moved if moves else 0.0
+        p[CREST_U * WIDTH + lane] = crest_u
+        p[CREST_V * WIDTH + lane] = crest_v
+        p[CREST_Q * WIDTH + lane] = crest_q
+        p[CREST_S * WIDTH + lane] = at(p, MASS, lane) * crest_q
+        p[HELD * WIDTH + lane] = max(at(p, HELD, lane), held)
+    return to_walk, to_keep
+
+
+@inner
+def slip_lanes(p, h, ground, rate):
+    """Advance the slipping lanes in which nothing happens; return those to walk, and those to keep."""
+    wide()
+    third = h * THIRD
+    ground_end = fma(rate, h, ground)
+    steep = abs(rate)
+    shake = max(abs(ground), abs(ground_end))
+    to_walk = 0
+    to_keep = 0
+    for lane in range(WIDTH):
+        sign = at(p, PHASE, lane)
+        u = at(p, U, lane)
+        v = at(p, V, lane)
+        d = at(p, D, lane)
+        e = at(p, E, lane)
+        g = at(p, F_G, lane)
+        w2 = at(p, F_W2, lane)
+        solid = at(p, B_GROUND, lane)
+        base = -sign * at(p, PUSH_FLOOR, lane)
+        p0 = base - ground
+        b0 = sign * at(p, PUSH_BRACE, lane) - solid * ground
+        b1 = solid * rate
+        u1 = carry(p, F_MAP, lane, u, v, p0, rate)
+        v1 = carry(p, F_MAP + 4, lane, u, v, p0, rate)
+        floor_area = carry(p, F_MAP + 8, lane, u, v, p0, rate)
+        d1 = carry(p, B_MAP, lane, d, e, b0, b1)
+        e1 = carry(p, B_MAP + 4, lane, d, e, b0, b1)
+        brace_area = carry(p, B_MAP + 8, lane, d, e, b0, b1)
+        q0 = acceleration(u, v, g, w2, base)
+        q1 = acceleration(u1, v1, g, w2, base)
+        a0 = q0 - ground
+        a1 = q1 - ground_end
+        swing = fma(abs(a0), at(p, F_SLOW, lane), fma(steep, at(p, F_DRIFT, lane), abs(v)))
+
+        drift = -b1 * at(p, B_DRIFT, lane)
+        g_b = at(p, B_G, lane)
+        w2_b = at(p, B_W2, lane)
+        c0 = acceleration(d, e, g_b, w2_b, b0)
+        c1 = acceleration(d1, e1, g_b, w2_b, fma(-b1, h, b0))
+        ring_v = e - drift
+        ring_a = c0 * at(p, B_SLOW, lane)
+        ring = math.sqrt(fma(ring_v, ring_v, ring_a * ring_a))
+        tail_v = swing * at(p, F_TAIL_V, lane)
+        inside = min(sign * fma(third, a0, v), sign * fma(-third, a1, v1)) - tail_v
+        slowest = min(min(sign * v, sign * v1), inside) - (sign * drift + ring)
+        w0 = sign * (v - e)
+        w1 = sign * (v1 - e1)
+        inside = min(fma(sign * third, a0 - c0, w0), fma(-sign * third, a1 - c1, w1))
+        inside -= fma(ring, at(p, B_TAIL_E, lane), tail_v)
+        slowest = max(slowest, min(min(w0, w1), inside))
+
+        top_a = max(at(p, PEAK_ACCELERATION, lane), abs(q1))
+        top_u = max(at(p, PEAK_DISPLACEMENT, lane), abs(u1))
+        top_v = max(at(p, PEAK_VELOCITY, lane), abs(v1))
+        crest_u = max(abs(fma(third, v, u)), abs(fma(-third, v1, u1)))
+        crest_u = fma(swing, at(p, F_TAIL_U, lane), crest_u)
+        crest_v = max(abs(fma(third, a0, v)), abs(fma(-third, a1, v1))) + tail_v
+        fall0, fall1 = fma(g, a0, w2 * v), fma(g, a1, w2 * v1)
+        crest_q = max(abs(fma(-third, fall0, q0)), abs(fma(third, fall1, q1)))
+        crest_q = fma(swing, at(p, F_TAIL_Q, lane), crest_q)
+        # Base shear is the inertia of both masses; the brace itself accelerates at most by ring times omega.
+        m = at(p, FLOOR_MASS, lane)
+        m_b = at(p, BRACE_MASS, lane)
+        s0 = fma(m, q0, m_b * (c0 + ground))
+        s1 = fma(m, q1, m_b * (c1 + ground_end))
+        rise0 = third * fma(m, fall0, m_b * fma(g_b, c0, w2_b * e))
+        rise1 = third * fma(m, fall1, m_b * fma(g_b, c1, w2_b * e1))
+        inside = max(abs(s0 - rise0), abs(s1 + rise1))
+        inside += fma(m * swing, at(p, F_TAIL_Q, lane), m_b * ring * at(p, B_TAIL_Q, lane))
+        crest_s = m_b * fma(ring, at(p, B_OMEGA, lane), shake)
+        crest_s = fma(m, max(max(abs(q0), abs(q1)), crest_q), crest_s)
+        crest_s = min(crest_s, max(max(abs(s0), abs(s1)), inside))
+        shear = max(at(p, PEAK_SHEAR, lane), abs(s1))
+        slips = sign != 0.0
+        alert = (at(p, MUST_WALK, lane) != 0.0) | (at(p, KICK, lane) >= 0.0)
+        alert |= (slowest <= 0.0) | (crest_s > shear)
+        peak = (crest_q > top_a) | (crest_u > top_u) | (crest_v > top_v)
+        moves = slips & (not alert)
+        to_walk |= (1 << lane) if slips & alert else 0
+        to_keep |= (1 << lane) if moves & peak else 0
+        moved = ground * (u1 - u)
+        work = m * fma(rate, fma(h, u1, -floor_area), moved)
+        work = fma(m_b, fma(ground, d1 - d, rate * fma(h, d1, -brace_area)), work)
+        p[FROM_U * WIDTH + lane] = u if slips else at(p, FROM_U, lane)
+        p[FROM_V * WIDTH + lane] = v if slips else at(p, FROM_V, lane)
+        p[U * WIDTH + lane] = u1 if moves else u
+        p[V * WIDTH + lane] = v1 if moves else v
+        p[D * WIDTH + lane] = d1 if moves else d
+        p[E * WIDTH + lane] = e1 if moves else e
+        p[PEAK_ACCELERATION * WIDTH + lane] = top_a if moves else at(p, PEAK_ACCELERATION, lane)
+        p[PEAK_DISPLACEMENT * WIDTH + lane] = top_u if moves else at(p, PEAK_DISPLACEMENT, lane)
+        p[PEAK_VELOCITY * WIDTH + lane] = top_v if moves else at(p, PEAK_VELOCITY, lane)
+        p[PEAK_SHEAR * WIDTH + lane] = shear if moves else at(p, PEAK_SHEAR, lane)
+        p[INPUT * WIDTH + lane] -= work if moves else 0.0
+        p[CREST_U * WIDTH + lane] = crest_u if slips else at(p, CREST_U, lane)
+        p[CREST_V * WIDTH + lane] = crest_v if slips else at(p, CREST_V, lane)
+        p[CREST_Q * WIDTH + lane] = crest_q if slips else at(p, CREST_Q, lane)
+        p[CREST_S * WIDTH + lane] = crest_s if slips else at(p, CREST_S, lane)
+    return to_walk, to_keep
+
+
+@inner
+def loss_lanes(p, ground, rate, to_walk):
+    """Add the viscous work of this step to all lanes but those that are to walk it."""
+    wide()
+    for lane in range(WIDTH):
+        sign = at(p, PHASE, lane)
+        u = at(p, FROM_U, lane)
+        v = at(p, FROM_V, lane)
+        p0 = at(p, LIFT, lane) * at(p, OFFSET, lane) - ground
+        f0 = -sign * at(p, PUSH_FLOOR, lane) - ground
+        one = at(p, S_DAMP, lane) * form(p, S_LOSS, lane, u, v, p0, -rate)
+        two = at(p, F_DAMP, lane) * form(p, F_LOSS, lane, u, v, f0, -rate)
+        done = two if sign != 0.0 else one
+        p[VISCOUS * WIDTH + lane] += done if to_walk >> lane & 1 == 0 else 0.0

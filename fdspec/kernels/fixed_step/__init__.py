@@ -1,0 +1,1 @@
+"""The study's scheme, with its fixed step."""

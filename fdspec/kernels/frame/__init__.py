@@ -1,0 +1,1 @@
+"""One frame of N storeys, by Taylor series."""

@@ -1,0 +1,128 @@
+"""The first change of phase on a step of a frame, storey by storey."""
+
+from __future__ import annotations
+
+import math
+
+from fdspec.compiler.options import inner
+from fdspec.kernels.frame.model import (
+    BRACE_DAMPING,
+    BRACE_MASS,
+    BRACE_STIFFNESS,
+    FRICTION,
+    NO_BRACE,
+    PLAIN,
+    SLIP_FORCE,
+    SLOWNESS,
+)
+from fdspec.kernels.frame.taylor import (
+    ACCELERATION_REACH,
+    DISPLACEMENT,
+    INERTIA,
+    JERK_REACH,
+    OFFSET,
+    REACTION,
+    REACTION_REACH,
+    SLIDING,
+    VELOCITY,
+)
+from fdspec.kernels.mathematics.polynomial_roots import NO_ROOT, first_root
+from fdspec.kernels.types import STICK
+
+SAME_INSTANT = 1e-12
+"""Fraction of a step (of at most a few radians) that counts as no time: far below what rounding leaves
+of a root's place, so storeys that change within it change together."""
+
+
+@inner
+def search(
+    frame, model, kind, phase, fresh, touching, series, reach, state, n, h, ground, rise, c, instants, signs
+):
+    """Fill instants[i], the fraction of the step at which storey i changes, and signs[i], its direction.
+
+    Return the smallest instant (NO_ROOT where there is none).  A storey that has just begun to slip has
+    fresh[i] leading terms of its sliding velocity that vanish; one that has just stuck at its limit, in
+    direction touching[i], as many of its distance to the limit.
+    """
+    first = NO_ROOT
+    for i in range(phase.size):
+        instants[i] = NO_ROOT
+        if kind[i] == NO_BRACE:
+            continue
+        if phase[i] == STICK:
+            room = frame[SLIP_FORCE, i] - reach[REACTION_REACH, i]
+            if touching[i] != 0 or not abs(series[REACTION, i + 1, 0]) < room:
+                instants[i] = search_stick(
+                    series,
+                    n - 1,
+                    frame[SLIP_FORCE, i],
+                    room,
+                    touching[i],
+                    fresh[i],
+                    c,
+                    signs,
+                    i,
+                )
+        else:
+            signs[i] = phase[i]
+            easy = fresh[i] == 0 and kind[i] == PLAIN
+            if easy and slips_on(frame, model, phase[i], series, reach, state, h, ground, rise, i):
+                continue
+            if fresh[i] > 1:
+                series[SLIDING, i + 1, 1] = 0.0
+            for k in range(n + 1):
+                c[k] = series[SLIDING, i + 1, k]
+            instants[i] = first_root(c, 0, n, float(phase[i]))
+        first = min(first, instants[i])
+    return first
+
+
+@inner
+def slips_on(frame, model, sign, series, reach, state, h, ground, rise, i):
+    """Whether the sliding velocity surely keeps its sign on the step.
+
+    The brace swings about the floor below with an amplitude that grows by no more than that floor's
+    jerk makes it; the floor itself changes its velocity by no more than its acceleration makes it.
+    """
+    mass = frame[BRACE_MASS, i]
+    stiffness = frame[BRACE_STIFFNESS, i]
+    drift = state[DISPLACEMENT, i]
+    drift_rate = state[VELOCITY, i]
+    pull = abs(series[INERTIA, i + 1, 0]) + reach[ACCELERATION_REACH, i]
+    if i > 0:
+        drift -= state[DISPLACEMENT, i - 1]
+        drift_rate -= state[VELOCITY, i - 1]
+        below = series[INERTIA, i, 0]
+        jerk = reach[JERK_REACH, i - 1]
+        pull += abs(below) + reach[ACCELERATION_REACH, i - 1]
+    else:
+        below = ground
+        jerk = abs(rise)
+        pull += abs(ground) + jerk
+    swing = drift_rate - state[SLIDING, i]
+    stretch = drift - state[OFFSET, i]
+    kick = (model[FRICTION, i] - stiffness * stretch - frame[BRACE_DAMPING, i] * swing) / mass - below
+    slowness = model[SLOWNESS, i]
+    kick *= slowness
+    ring = math.sqrt(swing * swing + kick * kick) + jerk * slowness
+    return sign * drift_rate - h * pull > ring
+
+
+@inner
+def search_stick(series, n, limit, room, touching, vanishing, c, signs, i):
+    """Where |reaction| reaches the limit; its direction goes to signs[i]."""
+    first = NO_ROOT
+    for sign in (1, -1):
+        if sign * series[REACTION, i + 1, 0] < room and touching != sign:
+            continue
+        for k in range(n + 1):
+            c[k] = -sign * series[REACTION, i + 1, k]
+        c[0] += limit
+        if touching == sign:
+            for k in range(vanishing):
+                c[k] = 0.0
+        x = first_root(c, 0, n, 1.0)
+        if x < first:
+            first = x
+            signs[i] = sign
+    return first

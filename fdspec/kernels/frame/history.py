@@ -1,0 +1,452 @@
+"""One history of a frame of N storeys, event by event.
+
+Between two changes of phase the frame is linear and its forcing linear in time.  Its motion over a
+step of a few radians of its fastest part is a Taylor series complete to rounding, in which every
+storey's reaction and sliding velocity is a polynomial: the first root of any of them ends the step,
+that storey changes its phase, and the next step starts there.  Only storeys that slip have their
+brace in the motion, so a frame that sticks is stepped as slowly as its record.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import types
+
+from fdspec.compiler.options import entry, float1d, float2d, float3d, inner, int1d
+from fdspec.kernels.frame.energy import (
+    input_work,
+    stored_energy,
+    viscous_work,
+)
+from fdspec.kernels.frame.groups_of_four import LANES
+from fdspec.kernels.frame.model import (
+    KINETIC_SLIP_FORCE,
+    MASSLESS,
+    MODEL_ROWS,
+    NO_BRACE,
+    PLAIN,
+    SLIP_FORCE,
+    fastest_rate,
+    held_rates,
+    is_damped,
+    is_grounded,
+    kind_of,
+    prepare,
+    rate_of,
+    set_phase,
+)
+from fdspec.kernels.frame.output import write_traces
+from fdspec.kernels.frame.peaks import PEAK_ROWS, raise_peaks
+from fdspec.kernels.frame.reset import (
+    RELEASE,
+    TALLY_ROWS,
+    begin_slip,
+    returns_at_once,
+    stay_sprung,
+    travel_so_far,
+)
+from fdspec.kernels.frame.step import change_phases, look_ahead
+from fdspec.kernels.frame.taylor import (
+    DISPLACEMENT,
+    OFFSET,
+    QUANTITIES,
+    REACH_ROWS,
+    SLIDING,
+    TERMS,
+    VELOCITY,
+    end_of_step,
+    order_for,
+    reaction_now,
+)
+from fdspec.kernels.types import (
+    NON_FINITE_STATE,
+    OK,
+    TRANSITION_CAP,
+    TRANSITION_CAP_REACHED,
+)
+
+given1d = types.Array(types.float64, 1, "C", readonly=True)
+given2d = types.Array(types.float64, 2, "C", readonly=True)
+
+RADIANS = 2.5
+"""Longest phase of a step; no result depends on it."""
+
+STOREY_RESULTS = (
+    "peak_acceleration",
+    "peak_displacement",
+    "peak_velocity",
+    "peak_drift",
+    "peak_storey_shear",
+    "peak_brace_displacement",
+    "residual_displacement",
+    "residual_brace_displacement",
+    "slip_travel",
+    "storey_transitions",
+    "storey_friction_energy",
+)
+"""Rows of ``by_storey`` (11, N); the first six are the peaks."""
+
+COUNTS = 9
+"""Row of the number of changes of phase."""
+
+TOTALS = ("transitions", "dissipated_energy", "viscous_energy", "input_energy", "energy_error", "status")
+"""Entries of ``totals`` (6,)."""
+
+NO_TIME = 1e-13
+"""Fraction of a record step that counts as its end."""
+
+
+@inner
+def history(
+    frame,
+    dense_stiffness,
+    dense_damping,
+    stiffness_lanes,
+    damping_lanes,
+    ground,
+    dt,
+    free_steps,
+    certify,
+    start,
+    radians,
+    extra,
+    model,
+    state,
+    motion,
+    tally,
+    series,
+    momentum,
+    reach,
+    speeds,
+    c,
+    instants,
+    signs,
+    kind,
+    phase,
+    fresh,
+    touching,
+    times,
+    storeys,
+    phases,
+    dt_out,
+    traces,
+    energies,
+    peaks,
+    counts,
+    by_storey,
+    totals,
+):
+    """Integrate one history: arguments as in :func:`integrate`, and zeroed room to work in.
+
+    The matrices in lanes have zeros up to a multiple of four.
+    """
+    size = frame.shape[1]
+    damped = is_damped(frame)
+    grounded = is_grounded(frame)
+    held = held_rates(frame, dense_stiffness, dense_damping)
+    held_rate = rate_of(held[0], held[1])
+    prepare(frame, model, held)
+    massless = False
+    for i in range(size):
+        kind[i] = kind_of(frame, i)
+        massless = massless or kind[i] == MASSLESS
+        state[DISPLACEMENT, i] = start[0, i]
+        state[VELOCITY, i] = start[1, i]
+        state[OFFSET, i] = start[0, i] - start[2, i]
+        state[SLIDING, i] = start[1, i] - start[3, i] if kind[i] == PLAIN else 0.0
+        if kind[i] == NO_BRACE:
+            state[OFFSET, i] = 0.0
+        tally[0, i] = state[OFFSET, i]
+        set_phase(frame, model, phase, i)
+    stored = stored_energy(frame, dense_stiffness, state)
+    transitions = 0
+    for i in range(size):
+        if kind[i] == NO_BRACE:
+            continue
+        reaction = reaction_now(frame, model, stiffness_lanes, damping_lanes, state, i)
+        if frame[SLIP_FORCE, i] == 0.0:
+            speed = state[SLIDING, i]
+            begin_slip(frame, kind, phase, fresh, state, tally, i, 1 if speed >= 0.0 else -1)
+            state[SLIDING, i] = speed
+            fresh[i] = 0
+        elif state[SLIDING, i] != 0.0:
+            phase[i] = 1 if state[SLIDING, i] > 0.0 else -1
+        elif abs(reaction) > frame[SLIP_FORCE, i]:
+            begin_slip(frame, kind, phase, fresh, state, tally, i, 1 if reaction > 0.0 else -1)
+            fresh[i] = min(fresh[i], 1)
+            changes = 2 if returns_at_once(frame, kind, phase, state, i) else 1
+            for change in range(changes):
+                if change > 0:
+                    stay_sprung(frame, phase, fresh, touching, state, tally, i)
+                if transitions < times.size:
+                    times[transitions] = 0.0
+                    storeys[transitions] = i
+                    phases[transitions] = phase[i]
+                transitions += 1
+                counts[i] += 1.0
+    for i in range(size):
+        set_phase(frame, model, phase, i)
+    rate = fastest_rate(model, phase, held_rate)
+
+    tracing = traces.shape[0] > 0
+    status = OK
+    work_in = 0.0
+    viscous = 0.0
+    written = 0
+    events = 0
+    steps = ground.size - 1
+    for step in range(steps + free_steps):
+        a0 = 0.0
+        slope = 0.0
+        if step < steps:
+            a0 = ground[step]
+            slope = (ground[step + 1] - a0) / dt
+        tau = 0.0
+        while True:
+            parts = max(1, math.ceil((dt - tau) * rate / radians - 1e-9))
+            h = (dt - tau) / parts
+            n = order_for(rate * h, extra)
+            acceleration = a0 + slope * tau
+            rise = slope * h
+            x = look_ahead(
+                frame,
+                model,
+                stiffness_lanes,
+                damping_lanes,
+                damped,
+                grounded,
+                massless,
+                kind,
+                phase,
+                fresh,
+                touching,
+                state,
+                series,
+                momentum,
+                reach,
+                n,
+                h,
+                acceleration,
+                rise,
+                c,
+                instants,
+                signs,
+            )
+            happens = x <= 1.0
+            done = x if happens else 1.0
+            if tracing:
+                reached = tau + h * done
+                final = step == steps + free_steps - 1 and not happens and parts == 1
+                while written < traces.shape[0]:
+                    at = written * dt_out - step * dt
+                    if at > reached and not (final and at <= reached + 1e-6 * dt):
+                        break
+                    y = min(max((at - tau) / h, 0.0), done)
+                    energies[written, 0] = work_in + input_work(momentum, n, h, acceleration, rise, y)
+                    energies[written, 1] = viscous + viscous_work(
+                        frame, dense_damping, damped, series, n, h, y, speeds
+                    )
+                    write_traces(
+                        frame,
+                        dense_stiffness,
+                        phase,
+                        series,
+                        n,
+                        h,
+                        y,
+                        tally,
+                        motion,
+                        c,
+                        traces,
+                        energies,
+                        written,
+                    )
+                    written += 1
+            if done > 0.0:
+                work_in += input_work(momentum, n, h, acceleration, rise, done)
+                if certify or tracing:
+                    viscous += viscous_work(frame, dense_damping, damped, series, n, h, done, speeds)
+                end_of_step(series, n, done, state)
+                raise_peaks(frame, model, series, reach, state, n, h, done, acceleration, rise, c, peaks)
+                for i in range(size):
+                    fresh[i] = 0
+                    touching[i] = 0
+                tau += h * done
+            if not happens:
+                if parts == 1:
+                    break
+                continue
+            events_now, transitions = change_phases(
+                frame,
+                model,
+                stiffness_lanes,
+                damping_lanes,
+                kind,
+                phase,
+                fresh,
+                touching,
+                state,
+                tally,
+                instants,
+                signs,
+                x,
+                step * dt + tau,
+                times,
+                storeys,
+                phases,
+                transitions,
+                counts,
+            )
+            events += events_now
+            rate = fastest_rate(model, phase, held_rate)
+            if events > TRANSITION_CAP:
+                status = TRANSITION_CAP_REACHED
+                break
+            if dt - tau <= NO_TIME * dt:
+                break
+        for i in range(size):
+            if not math.isfinite(state[DISPLACEMENT, i] + state[VELOCITY, i]):
+                status = NON_FINITE_STATE
+        if status != OK:
+            break
+
+    friction = 0.0
+    for i in range(size):
+        travel = travel_so_far(phase, state[OFFSET, i], tally, i)
+        work = tally[RELEASE, i]
+        if travel > 0.0:
+            work += frame[KINETIC_SLIP_FORCE, i] * travel
+        friction += work
+        by_storey[6, i] = state[DISPLACEMENT, i]
+        by_storey[7, i] = state[DISPLACEMENT, i] - state[OFFSET, i]
+        by_storey[8, i] = travel
+        by_storey[10, i] = work
+    error = 0.0
+    if certify:
+        scale = abs(work_in) + stored
+        if scale > 0.0:
+            now = stored_energy(frame, dense_stiffness, state)
+            error = abs(work_in + stored - now - viscous - friction) / scale
+    if status == OK and not math.isfinite(friction + viscous + work_in + error):
+        status = NON_FINITE_STATE
+    totals[0] = transitions
+    totals[1] = friction
+    totals[2] = viscous
+    totals[3] = work_in
+    totals[4] = error
+    totals[5] = status
+
+
+@inner
+def widen(matrix, wide):
+    """Copy the matrix (N, N) into a wider one of zeros."""
+    for i in range(matrix.shape[0]):
+        for j in range(matrix.shape[0]):
+            wide[i, j] = matrix[i, j]
+
+
+@entry(
+    types.void(
+        given2d,
+        given2d,
+        given2d,
+        given1d,
+        types.float64,
+        types.int64,
+        types.boolean,
+        given2d,
+        types.float64,
+        types.int64,
+        float1d,
+        int1d,
+        int1d,
+        types.float64,
+        float3d,
+        float2d,
+        float2d,
+        float1d,
+    )
+)
+def integrate(
+    frame,
+    dense_stiffness,
+    dense_damping,
+    ground,
+    dt,
+    free_steps,
+    certify,
+    start,
+    radians,
+    extra,
+    times,
+    storeys,
+    phases,
+    dt_out,
+    traces,
+    energies,
+    by_storey,
+    totals,
+):
+    """Integrate one history of a frame of N storeys.
+
+    frame (FRAME_ROWS, N), dense_stiffness and dense_damping (N, N), or (0, 0) where there is nothing
+    beside the springs and dashpots of ``frame``: see :mod:`fdspec.kernels.frame.model`.  ground: acceleration
+    at the samples dt apart, m/s2, (n,); free_steps: steps of dt with the ground at rest that follow.
+    start (4, N): displacement and velocity of floors, then of braces, at t = 0.  radians: longest phase
+    of a step; extra: terms beyond those the series needs.
+
+    times, storeys, phases (as many as there is room for): changes of phase in the order of time.
+    traces (m, len(STOREY_TRACES), N), energies (m, len(TOTAL_TRACES)): filled at k dt_out for k < m.
+    by_storey (len(STOREY_RESULTS), N), totals (len(TOTALS),): results.  viscous_energy and energy_error
+    are worked out where ``certify`` says so; traces need the first and cost it.
+    """
+    size = frame.shape[1]
+    lanes = LANES * ((size + LANES - 1) // LANES)
+    by_storey[:] = 0.0
+    wide = lanes if dense_stiffness.shape[0] > 0 else 0
+    stiffness_lanes = np.zeros((wide, wide))
+    widen(dense_stiffness, stiffness_lanes)
+    wide = lanes if dense_damping.shape[0] > 0 else 0
+    damping_lanes = np.zeros((wide, wide))
+    widen(dense_damping, damping_lanes)
+    history(
+        frame,
+        dense_stiffness,
+        dense_damping,
+        stiffness_lanes,
+        damping_lanes,
+        ground,
+        dt,
+        free_steps,
+        certify,
+        start,
+        radians,
+        extra,
+        np.zeros((MODEL_ROWS, lanes)),
+        np.zeros((4, size)),
+        np.zeros((4, size)),
+        np.zeros((TALLY_ROWS, size)),
+        np.zeros((QUANTITIES, lanes + 1, TERMS)),
+        np.zeros(TERMS),
+        np.zeros((REACH_ROWS, lanes)),
+        np.zeros((2, lanes + 1)),
+        np.zeros(TERMS),
+        np.zeros(size),
+        np.zeros(size, np.int64),
+        np.zeros(size, np.int64),
+        np.zeros(size, np.int64),
+        np.zeros(size, np.int64),
+        np.zeros(size, np.int64),
+        times,
+        storeys,
+        phases,
+        dt_out,
+        traces,
+        energies,
+        by_storey[:PEAK_ROWS],
+        by_storey[COUNTS],
+        by_storey,
+        totals,
+    )

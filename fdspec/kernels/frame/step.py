@@ -1,0 +1,130 @@
+"""One step of a frame: looking ahead to the next change of phase, and making the changes at its instant."""
+
+from __future__ import annotations
+
+from fdspec.compiler.options import inlined
+from fdspec.kernels.frame.guard import SAME_INSTANT, search
+from fdspec.kernels.frame.model import MASSLESS, set_phase
+from fdspec.kernels.frame.reset import begin_slip, end_slip
+from fdspec.kernels.frame.taylor import expand, follow_drift, reaction_now
+from fdspec.kernels.types import STICK
+
+
+@inlined
+def look_ahead(
+    frame,
+    model,
+    stiffness_lanes,
+    damping_lanes,
+    damped,
+    grounded,
+    massless,
+    kind,
+    phase,
+    fresh,
+    touching,
+    state,
+    series,
+    momentum,
+    reach,
+    n,
+    h,
+    acceleration,
+    rise,
+    c,
+    instants,
+    signs,
+):
+    """Expand the motion over a step; return the fraction of it at which the first storey changes its phase.
+
+    massless: whether any brace is.  The other arguments are those of `expand` and `search`.
+    """
+    expand(
+        model,
+        stiffness_lanes,
+        damping_lanes,
+        damped,
+        grounded,
+        n,
+        h,
+        acceleration,
+        rise,
+        state,
+        series,
+        momentum,
+        reach,
+    )
+    if massless:
+        for i in range(frame.shape[1]):
+            if kind[i] == MASSLESS and phase[i] != STICK:
+                follow_drift(frame, state, fresh, phase, n, h, series, i)
+    return search(
+        frame,
+        model,
+        kind,
+        phase,
+        fresh,
+        touching,
+        series,
+        reach,
+        state,
+        n,
+        h,
+        acceleration,
+        rise,
+        c,
+        instants,
+        signs,
+    )
+
+
+@inlined
+def change_phases(
+    frame,
+    model,
+    stiffness_lanes,
+    damping_lanes,
+    kind,
+    phase,
+    fresh,
+    touching,
+    state,
+    tally,
+    instants,
+    signs,
+    x,
+    at,
+    times,
+    storeys,
+    phases,
+    transitions,
+    counts,
+):
+    """Make the changes of all storeys whose instant is the fraction x of the step.
+
+    at: time then, s.  times, storeys, phases: changes of phase, as far as they have room; counts (N,):
+    changes of each storey.  Returns how many storeys were looked at, and transitions with those made added.
+    """
+    events = 0
+    for i in range(frame.shape[1]):
+        if instants[i] > x + SAME_INSTANT:
+            continue
+        events += 1
+        changed = True
+        if phase[i] == STICK:
+            touching[i] = 0
+            begin_slip(frame, kind, phase, fresh, state, tally, i, signs[i])
+        else:
+            held = reaction_now(frame, model, stiffness_lanes, damping_lanes, state, i)
+            changed = end_slip(frame, kind, phase, fresh, touching, state, tally, i, held)
+        if changed:
+            if transitions < times.size:
+                times[transitions] = at
+                storeys[transitions] = i
+                phases[transitions] = phase[i]
+            transitions += 1
+            counts[i] += 1.0
+    for i in range(frame.shape[1]):
+        if instants[i] <= x + SAME_INSTANT:
+            set_phase(frame, model, phase, i)
+    return events, transitions

@@ -1,0 +1,1 @@
+"""Oscillators, roots, extrema and quadrature: no friction in them."""

@@ -1,0 +1,1 @@
+"""One storey in closed form."""

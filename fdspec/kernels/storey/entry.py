@@ -1,0 +1,56 @@
+"""Entry point of the single-storey engine for one history with its course in time."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import types
+
+from fdspec.compiler.options import entry, float1d, float2d, ground1d, int1d, record_of
+from fdspec.kernels.mathematics.oscillator import TERMS
+from fdspec.kernels.storey.constants import plan, steps_per_sample
+from fdspec.kernels.storey.energy import N_FORMS, put_losses
+from fdspec.kernels.storey.history import history
+from fdspec.kernels.types import N_STATE, Motion, Storey
+
+
+@entry(
+    types.void(
+        record_of(Storey),
+        ground1d,
+        types.float64,
+        types.int64,
+        types.float64,
+        record_of(Motion),
+        float1d,
+        int1d,
+        types.float64,
+        float2d,
+        float1d,
+    )
+)
+def integrate(storey, ground, dt, free_steps, radians, start, times, phases, dt_out, traces, result):
+    """Integrate one history; arguments as in :func:`fdspec.kernels.storey.history.history`."""
+    parts = steps_per_sample(storey, dt, radians)
+    scheme = plan(storey, dt / parts, radians)
+    forms = np.empty(N_FORMS)
+    put_losses(scheme, forms)
+    s = np.empty(N_STATE)
+    floor, brace, search = np.empty(TERMS), np.empty(TERMS), np.empty(TERMS)
+    history(
+        scheme,
+        forms,
+        ground,
+        dt,
+        parts,
+        free_steps,
+        start,
+        s,
+        floor,
+        brace,
+        search,
+        times,
+        phases,
+        dt_out,
+        traces,
+        result,
+    )

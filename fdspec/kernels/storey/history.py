@@ -1,0 +1,159 @@
+"""One single-storey history from its start to its result.
+
+Between two changes of phase the storey is one linear oscillator (stick) or two uncoupled ones
+(slip) under a ground acceleration that is linear in time, so its motion is known; what is left is
+to find every instant at which the phase changes, and every peak.
+"""
+
+from __future__ import annotations
+
+import math
+
+from fdspec.compiler.options import inner
+from fdspec.kernels.friction import reaction
+from fdspec.kernels.storey.energy import stored_energy
+from fdspec.kernels.storey.step import begin, walk
+from fdspec.kernels.types import (
+    ANCHOR,
+    INPUT,
+    NON_FINITE_STATE,
+    OK,
+    PEAK_ACCELERATION,
+    PEAK_DISPLACEMENT,
+    PEAK_SHEAR,
+    PEAK_VELOCITY,
+    PHASE,
+    RELEASE,
+    STATUS,
+    STICK,
+    STORED,
+    TRANSITIONS,
+    TRAVEL,
+    VISCOUS,
+    D,
+    E,
+    Motion,
+    U,
+    V,
+)
+
+RESULTS = (
+    "peak_acceleration",
+    "peak_displacement",
+    "peak_velocity",
+    "peak_base_shear",
+    "residual_displacement",
+    "slip_travel",
+    "transitions",
+    "dissipated_energy",
+    "input_energy",
+    "energy_error",
+    "status",
+)
+"""What a history leaves behind, in the order of its result row."""
+
+BEYOND = 1e-6
+"""Share of a step by which the last output may lie past the last step's end, by rounding of times."""
+
+
+@inner
+def finish(storey, s, certify, result):
+    """Fill ``result`` (see RESULTS) from the state at the end."""
+    motion = Motion(s[U], s[V], s[D], s[E])
+    travel = s[TRAVEL]
+    if s[PHASE] != STICK:
+        travel += s[PHASE] * (motion.u - motion.d - s[ANCHOR])
+    friction = s[RELEASE]
+    if travel > 0.0:
+        friction += storey.kinetic_slip_force * travel
+    error = 0.0
+    if certify:
+        missing = s[INPUT] + s[STORED] - stored_energy(storey, motion) - s[VISCOUS] - friction
+        scale = abs(s[INPUT]) + s[STORED]
+        error = abs(missing) / scale if scale > 0.0 else 0.0
+    result[0] = s[PEAK_ACCELERATION]
+    result[1] = s[PEAK_DISPLACEMENT]
+    result[2] = s[PEAK_VELOCITY]
+    result[3] = s[PEAK_SHEAR]
+    result[4] = motion.u
+    result[5] = travel
+    result[6] = s[TRANSITIONS]
+    result[7] = friction
+    result[8] = s[INPUT]
+    result[9] = error
+    result[10] = s[STATUS]
+    size = 0.0
+    for k in range(10):
+        size += abs(result[k])
+    if not size < math.inf and s[STATUS] == OK:
+        result[10] = NON_FINITE_STATE
+
+
+@inner
+def history(
+    plan,
+    forms,
+    ground,
+    dt,
+    parts,
+    free_steps,
+    start,
+    s,
+    floor,
+    brace,
+    search,
+    times,
+    phases,
+    dt_out,
+    traces,
+    result,
+):
+    """Integrate one history, with its energies, and fill ``result`` (see RESULTS).
+
+    ground: acceleration at the samples, m/s2, (n,); parts: steps of the plan in each dt;
+    free_steps: record steps with the ground at rest that follow.  start: Motion at t = 0, the brace
+    locked where it stands, unless its velocity differs.  times, phases: changes of phase as far as
+    they have room.  traces (m, len(TRACES)): filled at k dt_out for k < m.
+    """
+    begin(plan, start, s)
+    begun = int(s[TRANSITIONS])
+    for k in range(min(begun, times.size)):
+        times[k] = 0.0
+        phases[k] = int(s[PHASE])
+    if begun == 2 and times.size > 0:
+        phases[0] = 1 if reaction(plan.storey, start.u, start.v, start.d) > 0.0 else -1
+    written = 0
+    steps = ground.size - 1
+    total = (steps + free_steps) * parts
+    for k in range(total):
+        i = k // parts
+        j = k - i * parts
+        rate = 0.0
+        a0 = 0.0
+        if i < steps:
+            rate = (ground[i + 1] - ground[i]) / dt
+            a0 = ground[i] + rate * (j * plan.step)
+        reach = BEYOND * plan.step if k + 1 == total else 0.0
+        at = i * dt + j * plan.step
+        written = walk(
+            plan,
+            forms,
+            s,
+            at,
+            a0,
+            rate,
+            True,
+            False,
+            floor,
+            brace,
+            search,
+            times,
+            phases,
+            traces,
+            dt_out,
+            written,
+            reach,
+        )
+        if s[STATUS] != OK:
+            break
+    finish(plan.storey, s, True, result)

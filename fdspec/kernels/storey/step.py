@@ -1,0 +1,344 @@
+"""One step of one history, piece by piece, from change of phase to change of phase.
+
+A step is a record step or an equal part of one, at most a radian of the sticking storey.  A piece of
+slip is at most a radian of the brace.  The motion at both ends of a piece mostly tells whether the
+phase changes on it, and leads to the instant (`mathematics/zero_crossing.py`).  Where it leaves doubt,
+and where a course in time is asked for, the piece is expanded in its Taylor series and searched; it ends
+where the phase changes.
+"""
+
+from __future__ import annotations
+
+import math
+
+from fdspec.compiler.options import inlined, inner
+from fdspec.kernels.friction import GOES_ON, phase_after_stop, reaction, sliding_kick
+from fdspec.kernels.mathematics.oscillator import expand
+from fdspec.kernels.mathematics.polynomial_roots import value_slope
+from fdspec.kernels.mathematics.zero_crossing import CROSSES, UNCLEAR
+from fdspec.kernels.storey.bounds import forcing, ground_at
+from fdspec.kernels.storey.energy import (
+    input_work,
+    series_work,
+    stored_energy,
+)
+from fdspec.kernels.storey.output import floor_acceleration, write_trace
+from fdspec.kernels.storey.segment import at_once, part_loss, whole_loss
+from fdspec.kernels.storey.slip import (
+    base_shear,
+    search_slip,
+    slip_peaks,
+)
+from fdspec.kernels.storey.stick import (
+    search_stick,
+    stick_peaks,
+)
+from fdspec.kernels.types import (
+    ANCHOR,
+    EVENTS,
+    INPUT,
+    KICK,
+    NO_KICK,
+    NON_FINITE_STATE,
+    OFFSET,
+    PEAK_ACCELERATION,
+    PEAK_DISPLACEMENT,
+    PEAK_SHEAR,
+    PEAK_VELOCITY,
+    PHASE,
+    RELEASE,
+    STATUS,
+    STICK,
+    STORED,
+    TOUCHING,
+    TRANSITION_CAP,
+    TRANSITION_CAP_REACHED,
+    TRANSITIONS,
+    TRAVEL,
+    VISCOUS,
+    D,
+    E,
+    Energy,
+    Motion,
+    Peaks,
+    U,
+    V,
+)
+
+
+@inlined
+def with_instant(plan, phase, offset, motion, peaks):
+    """Peaks with those of one instant: the far side of each jump in acceleration."""
+    return Peaks(
+        max(peaks.acceleration, abs(floor_acceleration(plan, phase, offset, motion))),
+        max(peaks.displacement, abs(motion.u)),
+        max(peaks.velocity, abs(motion.v)),
+        max(peaks.shear, abs(base_shear(plan.storey, motion))),
+    )
+
+
+@inner
+def begin_slip(storey, sign, motion, held):
+    """Motion and sliding acceleration just after the damper gives way in this direction.
+
+    A massless brace follows at once: without damping it springs to where the kinetic slip force
+    holds it, with damping its velocity does.
+    """
+    if storey.brace_mass > 0.0:
+        return Motion(motion.u, motion.v, motion.d, motion.v), sliding_kick(storey, held)
+    if storey.brace_damping > 0.0:
+        lag = (abs(held) - storey.kinetic_slip_force) / storey.brace_damping
+        return Motion(motion.u, motion.v, motion.d, motion.v - sign * lag), NO_KICK
+    return Motion(motion.u, motion.v, sign * storey.kinetic_slip_force / storey.brace_stiffness, 0.0), NO_KICK
+
+
+@inner
+def spring_release(storey, before, after):
+    """Energy (J) lost where a massless brace springs from one displacement to another."""
+    return 0.5 * storey.brace_stiffness * (before - after) * (before - after)
+
+
+@inner
+def begin(plan, start, s):
+    """Set the state ``s`` (N_STATE,) to the instant t = 0."""
+    storey = plan.storey
+    s[:] = 0.0
+    motion = start
+    kick = NO_KICK
+    phase = STICK
+    held = reaction(storey, motion.u, motion.v, motion.d)
+    s[STORED] = stored_energy(storey, motion)
+    s[OFFSET] = motion.u - motion.d
+    s[ANCHOR] = motion.u - motion.d
+    if storey.slip_force == 0.0:
+        phase = 1
+    elif motion.v != motion.e and storey.brace_mass > 0.0:
+        phase = 1 if motion.v > motion.e else -1
+    elif abs(held) > storey.slip_force:
+        phase = 1 if held > 0.0 else -1
+        motion, kick = begin_slip(storey, phase, motion, held)
+        s[RELEASE] = spring_release(storey, start.d, motion.d)
+        s[TRANSITIONS] = 1.0
+        if storey.brace_mass == 0.0 and storey.brace_damping == 0.0 and phase * motion.v < 0.0:
+            # The brace has sprung back to the floor's side, and the floor takes it along.
+            s[TRAVEL] = abs(start.d - motion.d)
+            s[OFFSET] = motion.u - motion.d
+            s[ANCHOR] = motion.u - motion.d
+            s[TRANSITIONS] = 2.0
+            if storey.kinetic_slip_force == storey.slip_force:
+                s[TOUCHING] = phase
+            motion = Motion(motion.u, motion.v, motion.d, motion.v)
+            phase = STICK
+    s[U] = motion.u
+    s[V] = motion.v
+    s[D] = motion.d
+    s[E] = motion.e
+    s[PHASE] = phase
+    s[KICK] = kick
+    peaks = with_instant(plan, phase, s[OFFSET], motion, Peaks(0.0, 0.0, 0.0, 0.0))
+    s[PEAK_ACCELERATION] = peaks.acceleration
+    s[PEAK_DISPLACEMENT] = peaks.displacement
+    s[PEAK_VELOCITY] = peaks.velocity
+    s[PEAK_SHEAR] = peaks.shear
+
+
+@inner
+def walk(
+    plan,
+    forms,
+    s,
+    at,
+    a0,
+    rate,
+    certify,
+    calm,
+    floor,
+    brace,
+    search,
+    times,
+    phases,
+    traces,
+    dt_out,
+    written,
+    reach,
+):
+    """Take the state ``s`` over one step; return the number of output rows written so far.
+
+    forms: the losses of the plan, (N_FORMS,), read where certify.  at: time of the step's start, s;
+    a0, rate: ground acceleration there (m/s2) and its rate (m/s3).  certify: whether the work of the viscous
+    dampers is kept.  calm: whether it is known that no peak is passed
+    before the phase changes.  floor, brace, search: room for series, (TERMS,).  times, phases: changes of
+    phase, as far as they have room.  traces (m, len(TRACES)): row k is
+    written at k dt_out once that is not later than ``reach`` past what has been walked; with m = 0
+    nothing is written, else every piece is expanded.
+    """
+    storey = plan.storey
+    limit = storey.slip_force
+    free = limit == 0.0
+    tracing = traces.shape[0] > 0
+    loose = storey.brace_mass == 0.0 and storey.brace_damping == 0.0
+
+    motion = Motion(s[U], s[V], s[D], s[E])
+    offset = s[OFFSET]
+    phase = int(s[PHASE])
+    kick = s[KICK]
+    touching = int(s[TOUCHING])
+    peaks = Peaks(s[PEAK_ACCELERATION], s[PEAK_DISPLACEMENT], s[PEAK_VELOCITY], s[PEAK_SHEAR])
+    tau = 0.0
+    part = 0  # index of the piece within the step, on the grid of the phase
+    whole = True  # whether the piece begins on that grid
+    while tau < plan.step:
+        pieces = 1 if phase == STICK else int(plan.slip_steps)
+        order = int(plan.stick_order) if phase == STICK else int(plan.slip_order)
+        target = plan.step if part + 1 == pieces else (part + 1) * plan.slip_step
+        h = target - tau
+        acceleration = ground_at(a0, rate, tau)
+        force = forcing(plan, phase, offset, acceleration, rate)
+
+        found = UNCLEAR
+        sign = phase
+        share = 0.0
+        length = h
+        end = motion
+        swept = swung = 0.0
+        if not tracing and touching == STICK:
+            found, sign, length, end, swept, swung = at_once(
+                plan, phase, whole, motion, force, offset, kick, h
+            )
+        if found != UNCLEAR:
+            happens = found == CROSSES
+            h = length
+            s[INPUT] += input_work(plan, phase, motion, end, swept, swung, acceleration, rate, h)
+            if certify and whole and not happens:
+                s[VISCOUS] += whole_loss(plan, forms, phase, motion, force)
+            elif certify:
+                s[VISCOUS] += part_loss(plan, phase, floor, motion, force, h)
+        else:
+            if phase == STICK:
+                b = plan.stick
+                expand(floor, order, motion.u, motion.v, b.g, b.w2, force.p0, force.p1, h)
+                x, sign = search_stick(plan, floor, search, order, h, offset, touching)
+            else:
+                b = plan.floor
+                expand(floor, order, motion.u, motion.v, b.g, b.w2, force.p0, force.p1, h)
+                b = plan.brace
+                expand(brace, order, motion.d, motion.e, b.g, b.w2, force.b0, force.b1, h)
+                x = search_slip(floor, brace, search, order, h, phase, kick)
+                sign = phase
+            happens = x <= 1.0
+            share = min(x, 1.0)
+            if tracing:
+                so_far = Energy(s[INPUT], s[VISCOUS], s[RELEASE])
+                walked = (tau + share * h if happens else target) + reach
+                while written < traces.shape[0] and written * dt_out - at <= walked:
+                    y = min(max((written * dt_out - at - tau) / h, 0.0), share)
+                    write_trace(
+                        plan,
+                        floor,
+                        brace,
+                        order,
+                        phase,
+                        offset,
+                        s[ANCHOR],
+                        s[TRAVEL],
+                        so_far,
+                        acceleration,
+                        rate,
+                        h,
+                        y,
+                        traces[written],
+                    )
+                    written += 1
+            done, lost = series_work(plan, phase, floor, brace, order, acceleration, rate, h, share, certify)
+            s[INPUT] += done
+            s[VISCOUS] += lost
+            u, rise = value_slope(floor, 0, order, share)
+            v = rise / h
+            d = u - offset
+            e = v
+            if phase != STICK:
+                d, rise = value_slope(brace, 0, order, share)
+                e = rise / h
+            end = Motion(u, v, d, e)
+            h *= share
+
+        if h > 0.0:
+            calm = calm and not happens
+            if phase == STICK and not calm:
+                peaks = stick_peaks(plan, floor, search, order, share, motion, end, force, offset, h, peaks)
+            elif not calm:
+                peaks = slip_peaks(
+                    plan, floor, brace, search, order, share, motion, end, force, phase, h, peaks
+                )
+            motion = end
+        touching = STICK
+        kick = NO_KICK
+        if not happens:
+            part += 1
+            whole = True
+            tau = target
+            continue
+
+        tau += h
+        s[EVENTS] += 1.0
+        if s[EVENTS] > TRANSITION_CAP:
+            s[STATUS] = TRANSITION_CAP_REACHED
+            break
+        changes = True
+        if phase == STICK:
+            s[ANCHOR] = offset
+            spring = motion.d
+            motion, kick = begin_slip(storey, sign, motion, limit)
+            s[RELEASE] += spring_release(storey, spring, motion.d)
+            phase = sign
+        else:
+            v = 0.0 if loose and not free else motion.v
+            motion = Motion(motion.u, v, motion.d, motion.e if loose else v)
+            slipped = sign * (motion.u - motion.d - s[ANCHOR])
+            held = reaction(storey, motion.u, motion.v, motion.d)
+            if storey.brace_mass == 0.0:
+                held = sign * storey.kinetic_slip_force
+            after = -sign if free else phase_after_stop(sign, held, limit)
+            if after == GOES_ON:
+                kick = sliding_kick(storey, held)
+                changes = False
+            else:
+                s[TRAVEL] += slipped
+                s[ANCHOR] = motion.u - motion.d
+                phase = after
+                changes = not free
+                if phase == STICK:
+                    offset = motion.u - motion.d
+                    motion = Motion(motion.u, motion.v, motion.d, motion.v)
+                    if abs(held) == limit:
+                        touching = sign
+                elif not free:
+                    kick = sliding_kick(storey, held)
+        if changes:
+            k = int(s[TRANSITIONS])
+            if k < times.size:
+                times[k] = at + tau
+                phases[k] = phase
+            s[TRANSITIONS] = k + 1.0
+        peaks = with_instant(plan, phase, offset, motion, peaks)
+        pieces = 1 if phase == STICK else int(plan.slip_steps)
+        part = 0 if phase == STICK else min(int(tau / plan.slip_step), pieces - 1)
+        if part + 1 < pieces and (part + 1) * plan.slip_step <= tau:
+            part += 1
+        whole = False
+
+    if not abs(motion.u) + abs(motion.v) + abs(motion.d) + abs(motion.e) < math.inf:
+        s[STATUS] = NON_FINITE_STATE
+    s[U] = motion.u
+    s[V] = motion.v
+    s[D] = motion.d
+    s[E] = motion.e
+    s[OFFSET] = offset
+    s[PHASE] = phase
+    s[KICK] = kick
+    s[TOUCHING] = touching
+    s[PEAK_ACCELERATION] = peaks.acceleration
+    s[PEAK_DISPLACEMENT] = peaks.displacement
+    s[PEAK_VELOCITY] = peaks.velocity
+    s[PEAK_SHEAR] = peaks.shear
+    return written

@@ -1,0 +1,61 @@
+"""Every slip force for each of many single storeys under one ground motion, by a method beside the exact."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fdspec.engines.trajectory import Course, Span
+from fdspec.kernels.storey.history import RESULTS
+from fdspec.methods import Method
+from fdspec.model.building import Building, DampingMatrix
+from fdspec.model.motion import GroundMotion
+
+FloatArray = NDArray[np.float64]
+
+
+def integrate_by_method(
+    method: Method,
+    frames: FloatArray,
+    slip_force: FloatArray,
+    kinetic_slip_force: FloatArray,
+    motion: GroundMotion,
+) -> FloatArray:
+    """Return results (m, p, len(RESULTS)) of frames (m, 6) under each of the slip forces (p,).
+
+    A frame's row: floor mass, damping, stiffness, brace mass, damping, stiffness, SI units.
+    """
+    results = np.empty((frames.shape[0], slip_force.size, len(RESULTS)))
+    span = Span(0, motion.duration, 2)
+    for row, frame in enumerate(frames):
+        for column, forces in enumerate(zip(slip_force, kinetic_slip_force, strict=True)):
+            building = _building(frame, *forces)
+            start = np.zeros((2, 2, 1))
+            results[row, column] = _results(method.integrate(building, motion, span, start))
+    return results
+
+
+def _building(frame: FloatArray, slip_force: float, kinetic_slip_force: float) -> Building:
+    m_f, c_f, k_f, m_d, c_d, k_d = frame.tolist()
+    damping = DampingMatrix([[c_f]])
+    if k_d == 0.0:  # no brace, and so nothing to slip on
+        return Building(m_f, k_f, 0.0, 0.0, 0.0, damping=damping)
+    return Building(m_f, k_f, m_d, k_d, slip_force, kinetic_slip_force, damping, c_d)
+
+
+def _results(course: Course) -> tuple[float, ...]:
+    """Return a row in the order of RESULTS."""
+    values = {
+        "peak_acceleration": course.peak_acceleration[0],
+        "peak_displacement": course.peak_displacement[0],
+        "peak_velocity": course.peak_velocity[0],
+        "peak_base_shear": course.peak_base_shear,
+        "residual_displacement": course.residual_displacement[0],
+        "slip_travel": course.slip_travel[-1, 0],
+        "transitions": course.transition_time.size,
+        "dissipated_energy": course.dissipated_energy,
+        "input_energy": course.input_energy[-1],
+        "energy_error": course.energy_error,
+        "status": course.status,
+    }
+    return tuple(float(values[name]) for name in RESULTS)

@@ -1,0 +1,1 @@
+"""Buildings, damping, motions and grids: frozen, validated, SI units."""

@@ -1,0 +1,1 @@
+"""Simulate and sweep: grids and motions to Datasets."""

@@ -1,0 +1,199 @@
+"""A sweep that goes into a store, block by block, and goes on where it stopped when it is started again."""
+
+from __future__ import annotations
+
+import json
+import logging
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fdspec.errors import InvalidInput, StoreError
+from fdspec.model.motion import GroundMotion
+from fdspec.scheduling.threads import Task, cores
+from fdspec.store import chunks
+from fdspec.store import open as open_cube
+from fdspec.store.blocks import Blocks, cut
+from fdspec.store.replacing import check_writable
+from fdspec.variables import Variable
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+IntArray = NDArray[np.int64]
+Compute = Callable[[IntArray, GroundMotion], Mapping[str, NDArray[np.generic]]]
+
+LONGEST: Final = 2.0
+"""s of core time in a block, which is what a crash loses of each core's work."""
+
+SHORTEST: Final = 0.2
+"""s of core time in a block, below which what a task costs by itself would show."""
+
+SHARE: Final = 16
+"""Blocks for each core at least, so that the cores end together."""
+
+LARGEST: Final = 4_000_000
+"""Cells of a block: 32 MB of each variable."""
+
+COLUMNS: Final = ("stiffness_ratio", "period")
+"""The dims of a sweep's columns, the second fastest; a column is all pretensions of a pair."""
+
+log = logging.getLogger(__name__)
+
+
+class Fan(Protocol):
+    """`fdspec.scheduling.threads.fan_out` with all that does not concern the store."""
+
+    def __call__(
+        self, work: Callable[[IntArray, GroundMotion], int], *, tasks: Sequence[Task], finished: int
+    ) -> list[int]:
+        """Return the work's result for every task."""
+
+
+def sweep_into(
+    path: str | os.PathLike[str],
+    frame: xr.Dataset,
+    variables: Sequence[Variable],
+    compute: Compute,
+    fan: Fan,
+    *,
+    seconds: float,
+    columns_per_task: int | None = None,
+    restart: bool = False,
+) -> xr.Dataset:
+    """Compute what is not yet finished of the cube in a store; return the cube, its numbers still on disk.
+
+    frame: coordinates and attributes of the cube; variables: those to be computed; compute: the values of a
+    block, given as columns, under a motion; seconds: core time of the whole cube, roughly.
+    """
+    path = Path(path)
+    identity = identity_of(frame)
+    if restart and path.exists():
+        chunks.described(path)  # what is not fdspec's own is refused
+        chunks.remove(path)
+    if path.exists():
+        blocks = _agreed(path, identity)
+        log.info("%s: going on where it stopped", path)
+    else:
+        check_writable(path, suffixes=chunks.SUFFIXES)
+        blocks = plan_blocks({dim: frame.sizes[dim] for dim in _DIMS}, seconds, columns_per_task)
+        chunks.create(path, frame, variables, blocks, identity)
+        log.info("%s: made, %d blocks of %s", path, len(blocks), dict(blocks.edges))
+    todo = list(_unfinished(path, blocks, variables))
+    total = sum(map(blocks.histories, range(len(blocks))))
+    finished = total - sum(map(blocks.histories, todo))
+    log.info("%d of %d histories are finished, %d blocks are left", finished, total, len(todo))
+    if todo:
+        names = tuple(map(str, frame["record"].values))
+        work = partial(_fill, path.resolve(), blocks, names, tuple(variables), compute)
+        fan(work, tasks=[Task(*_columns(blocks, number)) for number in todo], finished=finished)
+    chunks.still_there(path)  # also under the last block
+    chunks.tidy(path)
+    log.info("%s: complete", path)
+    return open_cube(path)
+
+
+def plan_blocks(sizes: Mapping[str, int], seconds: float, columns_per_task: int | None) -> Blocks:
+    """Cut the cube, whose work takes so many seconds of core time, into blocks of one record each."""
+    if columns_per_task is not None and columns_per_task < 1:
+        raise InvalidInput(f"columns_per_task must be at least 1, got {columns_per_task}")
+    total = float(np.prod([sizes[dim] for dim in _DIMS], dtype=float))
+    if columns_per_task is None:
+        length = min(LONGEST, max(SHORTEST, seconds / (SHARE * cores())))
+        cells = min(LARGEST, total * length / seconds)
+    else:
+        cells = columns_per_task * sizes["pretension"]
+    return cut(sizes, COLUMNS, cells, singly=("record",))
+
+
+def identity_of(frame: xr.Dataset) -> dict[str, Any]:
+    """Return what a store's sweep and this one must share: versions, parameters, the numbers of records."""
+    from fdspec.compiler.options import source_key
+
+    parameters = json.loads(frame.attrs["parameters"])
+    records = {record["name"]: record["checksum"] for record in parameters.pop("records")}
+    versions = {"fdspec_version": frame.attrs["fdspec_version"], "kernels_source": source_key()}
+    return {**versions, **parameters, "records": records}
+
+
+def differences(held: Mapping[str, Any], wanted: Mapping[str, Any]) -> list[str]:
+    """Say of each thing that a store and a study do not share what it is there and what here."""
+    told = []
+    for name in dict.fromkeys([*held, *wanted]):
+        there, here = held.get(name), wanted.get(name)
+        if name == "records":
+            told += _other_records(there or {}, here or {})
+        elif there != here:
+            told.append(f"{name} is {_short(there)} in the store, {_short(here)} in the study")
+    return told
+
+
+def _other_records(there: Mapping[str, str], here: Mapping[str, str]) -> list[str]:
+    if there == here and list(there) != list(here):
+        return ["the records stand in another order"]
+    return [
+        *(f"record {name} is not in the study" for name in there if name not in here),
+        *(f"record {name} is not in the store" for name in here if name not in there),
+        *(f"record {name} has other numbers" for name in there if here.get(name, there[name]) != there[name]),
+    ]
+
+
+_DIMS: Final = ("record", "stiffness_ratio", "pretension", "period")
+
+
+def _agreed(path: Path, identity: Mapping[str, Any]) -> Blocks:
+    """Return how the store is cut, when its sweep is this one."""
+    blocks, held = chunks.described(path)
+    told = differences(held, identity)
+    if told:
+        raise StoreError(
+            f"{path} holds another sweep: {'; '.join(told)}; name another store, or start over "
+            "with --restart (restart=True)"
+        )
+    return blocks
+
+
+def _unfinished(path: Path, blocks: Blocks, variables: Sequence[Variable]) -> Iterator[int]:
+    """Give the blocks to be computed; what is damaged is removed and computed again."""
+    for number, state, damaged in chunks.states(path, blocks, variables):
+        for chunk in damaged:
+            log.warning("%s is damaged and will be computed again", chunk)
+            with chunks.written(path):
+                chunk.unlink()
+        if state is not chunks.State.WHOLE:
+            yield number
+
+
+def _columns(blocks: Blocks, number: int) -> tuple[int, IntArray]:
+    """Return a block's record and its columns, numbered over the whole cube."""
+    slices = blocks.slices(number)
+    slow, fast = (np.arange(blocks.sizes[dim])[slices[dim]] for dim in COLUMNS)
+    return slices["record"].start, (slow[:, np.newaxis] * blocks.sizes[COLUMNS[1]] + fast).ravel()
+
+
+def _fill(
+    path: Path,
+    blocks: Blocks,
+    records: tuple[str, ...],
+    variables: Sequence[Variable],
+    compute: Compute,
+    columns: IntArray,
+    motion: GroundMotion,
+) -> int:
+    """Compute a block and write it; return how many of its histories have a status other than ok."""
+    slow, fast = np.unravel_index(int(columns[0]), [blocks.sizes[dim] for dim in COLUMNS])
+    at = {"record": records.index(motion.name), COLUMNS[0]: int(slow), "pretension": 0, COLUMNS[1]: int(fast)}
+    values = compute(columns, motion)
+    chunks.write(path, blocks, blocks.number(at), values, variables)
+    return int(np.count_nonzero(values["status"]))
+
+
+def _short(value: object) -> str:
+    if isinstance(value, list) and len(value) > 4:
+        return f"{len(value)} values from {value[0]} to {value[-1]}"
+    return json.dumps(value)

@@ -1,0 +1,242 @@
+"""One building under one ground motion -> its course in time, as a Dataset."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike
+
+from fdspec.engines.trajectory import Course, FloatArray, Span
+from fdspec.errors import IntegrationError, InvalidInput
+from fdspec.methods import EXACT, Method, chosen_method
+from fdspec.model.building import Building
+from fdspec.model.motion import GroundMotion
+from fdspec.store import provenance
+from fdspec.variables import HISTORY, STATUSES, describe
+
+MAX_OUTPUTS = 50_000_000
+"""Output instants; a dt_out with a slipped decimal is refused before it fills the memory."""
+
+
+def simulate(
+    building: Building,
+    motion: GroundMotion,
+    *,
+    method: str | Method = EXACT,
+    dt_out: float | None = None,
+    free_vibration: float = 0.0,
+    initial_displacement: ArrayLike | None = None,
+    initial_velocity: ArrayLike | None = None,
+) -> xr.Dataset:
+    """Integrate one history exactly, event by event, or by another method; return its course in time.
+
+    Parameters
+    ----------
+    building : Building
+        The frame or building, at rest unless said otherwise.
+    motion : GroundMotion
+        Ground acceleration, linear between its samples.
+    method : str or Method
+        "exact", or one of the methods that the study compares, by name (`fdspec.methods.METHODS`) or with
+        parameters of its own, as ``Newmark(dt=1e-5)``.
+    dt_out : float, s, optional
+        Time between outputs, the motion's own unless given.  It is not a step size: no peak and no
+        instant of change depends on it.
+    free_vibration : float, s
+        How long to go on after the motion's end, the ground at rest; rounded up to whole steps of
+        the motion.
+    initial_displacement, initial_velocity : array_like, m and m/s, optional
+        Relative to the ground: shape (N,) for the floors, each brace moving with its floor as if no
+        damper had ever slipped; shape (2, N) for floors and braces apart.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dims time, storey and transition; variables, units and meanings are those of
+        `fdspec.variables.HISTORY`.
+
+    Raises
+    ------
+    InvalidInput
+        For an argument that cannot be used, by name and value.
+    IntegrationError
+        When the history could not be completed; the text names the status.
+
+    Notes
+    -----
+    The equations of motion are the study's (2) to (7) for one storey and (19) to (25) for many.
+
+    Examples
+    --------
+    >>> import fdspec
+    >>> frame = fdspec.Building.single_storey(period=0.5, stiffness_ratio=4, slip_force=50e3)
+    >>> history = fdspec.simulate(frame, fdspec.load_record("FSR1"))
+    >>> bool(history.peak_acceleration[0] < 9.81)
+    True
+    """
+    if not isinstance(building, Building):
+        raise InvalidInput(f"building must be a Building, got {type(building).__name__}")
+    if not isinstance(motion, GroundMotion):
+        raise InvalidInput(f"motion must be a GroundMotion, got {type(motion).__name__}")
+    span = _span(motion, dt_out, free_vibration)
+    start = np.stack(
+        [
+            _initial("initial_displacement", initial_displacement, building),
+            _initial("initial_velocity", initial_velocity, building),
+        ]
+    )
+    other = chosen_method(method)
+    if other is not None:
+        course = other.integrate(building, motion, span, start)
+    elif building.n_storeys == 1:
+        from fdspec.engines.single_storey import integrate_single_storey
+
+        course = integrate_single_storey(building, motion, span, start)
+    else:
+        from fdspec.engines.many_storeys import integrate_many_storeys
+
+        course = integrate_many_storeys(building, motion, span, start)
+    if course.status != 0:
+        raise IntegrationError(
+            f"the history of {building!r} under {motion.name or 'the motion'} ended with status "
+            f"{STATUSES[course.status]} after {course.transition_time.size} changes of phase"
+        )
+    solved = building if other is None else other.model(building)
+    return _dataset(solved, motion, span, start, course, {} if other is None else other.parameters)
+
+
+def _span(motion: GroundMotion, dt_out: object, free_vibration: object) -> Span:
+    if not (isinstance(free_vibration, int | float) and 0.0 <= free_vibration < math.inf):
+        raise InvalidInput(f"free_vibration must be zero or a positive time in s, got {free_vibration!r}")
+    every = motion.dt if dt_out is None else dt_out
+    if not (isinstance(every, int | float) and 0.0 < every < math.inf):
+        raise InvalidInput(f"dt_out must be a positive time in s, got {dt_out!r}")
+    free_steps = math.ceil(free_vibration / motion.dt - 1e-9)
+    total = (motion.n - 1 + free_steps) * motion.dt
+    outputs = math.floor(total / every + 1e-9) + 1
+    if outputs > MAX_OUTPUTS:
+        raise InvalidInput(
+            f"dt_out {every:g} s gives {outputs:g} outputs over {total:g} s; at most {MAX_OUTPUTS} are kept, "
+            f"so it must be at least {total / (MAX_OUTPUTS - 1):.3g} s"
+        )
+    return Span(free_steps, float(every), outputs)
+
+
+def _initial(name: str, given: ArrayLike | None, building: Building) -> FloatArray:
+    """Floors and braces (2, N) of an initial displacement or velocity."""
+    size = building.n_storeys
+    if given is None:
+        return np.zeros((2, size))
+    try:
+        values = np.array(given, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InvalidInput(f"{name} must be numbers, got {given!r:.60}") from None
+    if values.ndim == 0 and size == 1:
+        values = values[np.newaxis]
+    if values.shape not in ((size,), (2, size)):
+        raise InvalidInput(f"{name} must have shape ({size},) or (2, {size}), got {values.shape}")
+    if not np.isfinite(values).all():
+        raise InvalidInput(f"{name} must be finite, got {given!r:.60}")
+    return np.broadcast_to(values, (2, size)).copy()
+
+
+def _dataset(
+    building: Building,
+    motion: GroundMotion,
+    span: Span,
+    start: FloatArray,
+    course: Course,
+    method: dict[str, object],
+) -> xr.Dataset:
+    time = np.arange(span.outputs) * span.dt_out
+    below = np.zeros_like(course.displacement)
+    below[:, 1:] = course.displacement[:, :-1]
+    drift = course.displacement - below
+    brace_drift = course.brace_displacement - below
+    kinetic = 0.5 * (
+        course.velocity**2 @ building.floor_mass + course.brace_velocity**2 @ building.brace_mass
+    )
+    strain = 0.5 * (
+        np.einsum("ti,ij,tj->t", course.displacement, building.stiffness_matrix, course.displacement)
+        + brace_drift**2 @ building.brace_stiffness
+    )
+    residual = course.residual_displacement
+    storeys = np.arange(1, building.n_storeys + 1)
+    each = ("time", "storey")
+    variables: dict[str, Any] = {
+        "ground_acceleration": ("time", np.interp(time, motion.time, motion.acceleration, right=0.0)),
+        "displacement": (each, course.displacement),
+        "velocity": (each, course.velocity),
+        "acceleration": (each, course.acceleration),
+        "drift": (each, drift),
+        "storey_shear": (each, course.storey_shear),
+        "brace_displacement": (each, course.brace_displacement),
+        "brace_velocity": (each, course.brace_velocity),
+        "friction_force": (each, course.friction_force),
+        "phase": (each, course.phase.astype(np.int8)),
+        "slip_travel": (each, course.slip_travel),
+        "kinetic_energy": ("time", kinetic),
+        "strain_energy": ("time", strain),
+        "viscous_energy": ("time", course.viscous_energy),
+        "friction_energy": ("time", course.storey_friction_energy.sum(axis=1)),
+        "storey_friction_energy": (each, course.storey_friction_energy),
+        "input_energy": ("time", course.input_energy),
+        "transition_time": ("transition", course.transition_time),
+        "transition_storey": ("transition", storeys[course.transition_storey]),
+        "transition_phase": ("transition", course.transition_phase.astype(np.int8)),
+        "peak_acceleration": ("storey", course.peak_acceleration),
+        "peak_displacement": ("storey", course.peak_displacement),
+        "peak_velocity": ("storey", course.peak_velocity),
+        "peak_drift": ("storey", course.peak_drift),
+        "peak_storey_shear": ("storey", course.peak_storey_shear),
+        "peak_base_shear": ((), course.peak_base_shear),
+        "residual_displacement": ("storey", residual),
+        "residual_drift": ("storey", np.diff(residual, prepend=0.0)),
+        "storey_transitions": (
+            "storey",
+            np.bincount(course.transition_storey, minlength=building.n_storeys).astype(np.int64),
+        ),
+        "transitions": ((), np.int64(course.transition_time.size)),
+        "dissipated_energy": ((), course.dissipated_energy),
+        "energy_error": ((), course.energy_error),
+        "status": ((), np.int8(course.status)),
+    }
+    told = {
+        "record": motion.name,
+        "pga": motion.pga,
+        "dt": motion.dt,
+        "duration": motion.duration,
+        "samples": motion.n,
+        "scale_factor": motion.scale_factor,
+        "event": motion.event,
+        "station": motion.station,
+        "component": motion.component,
+        "source": motion.source,
+        "history": "; ".join(motion.history),
+        "checksum": motion.checksum,
+    }
+    coords: dict[str, Any] = {
+        "time": time,
+        "storey": storeys,
+        "slip_force": ("storey", building.slip_force),
+        "kinetic_slip_force": ("storey", building.kinetic_slip_force),
+        **{name: ((), value) for name, value in told.items()},
+    }
+    dataset = xr.Dataset(variables, coords=coords)
+    dataset.attrs = provenance(
+        "Response history of a building with friction dampers",
+        {
+            **building.parameters,
+            "dt_out": span.dt_out,
+            "free_steps": span.free_steps,
+            "initial_displacement": start[0],
+            "initial_velocity": start[1],
+            **method,
+        },
+        (motion,),
+        command="fdspec.simulate",
+    )
+    return describe(dataset, HISTORY)

@@ -1,0 +1,368 @@
+"""A study: everything one sweep needs, as a TOML file that a person writes."""
+
+import difflib
+import json
+import tomllib
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, fields
+from decimal import Decimal
+from functools import partial
+from pathlib import Path
+from typing import Annotated, Any, Final
+
+import numpy as np
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    PlainValidator,
+    StrictBool,
+    StrictStr,
+    ValidationError,
+    create_model,
+)
+
+from fdspec.errors import RecordError, StudyError
+from fdspec.model.grid import GRID_FIELDS, FloatArray, Grid, checked, contradictions
+from fdspec.model.motion import GroundMotion
+from fdspec.model.toml_lines import key_lines, line_of
+from fdspec.records import catalogue, load_record, read_record
+from fdspec.variables import CUBE
+
+AXES: Final = ("stiffness_ratio", "pretension", "period")
+
+STUDY_RECORDS: Final = ("FSR1", "FSR2", "FSR3", "FMR1", "FMR2", "FMR3", "FHR1", "FHR2", "FHR3")
+
+_OUTPUTS: Final = tuple(v for v in CUBE.values() if v.dims[:1] == ("record",) and len(v.dims) > 1)
+OUTPUTS: Final = tuple(v.name for v in _OUTPUTS if not v.on_request)
+"""What a study computes unless it names its outputs: what depends on more than the record."""
+
+ON_REQUEST: Final = tuple(v.name for v in _OUTPUTS if v.on_request)
+"""What it computes only where it is named."""
+
+MAX_AXIS: Final = 1_000_000
+"""Points of one axis; a step with a slipped decimal is refused before it fills the memory."""
+
+
+@dataclass(frozen=True)
+class RecordFile:
+    """Name a record file and what it does not say of itself; see `fdspec.read_record`.
+
+    `path` is relative to the study file's folder, `units` one of g, m/s2, cm/s2, mm/s2, `dt` in s.
+    """
+
+    path: str
+    units: str | None = None
+    dt: float | None = None
+    channel: str | None = None
+    name: str | None = None
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Study:
+    """Hold every argument of a sweep and the records it runs on; without arguments, the study of the nine.
+
+    Parameters
+    ----------
+    grid : Grid
+        Axes and scalars.
+    records : tuple of str or RecordFile
+        Names of the catalogue, or record files.
+    scaled : bool
+        Whether the catalogue's stand-ins are scaled to the study's PGA.
+    outputs : tuple of str or None
+        Variables of the cube; None for all.
+    certify : bool
+        Whether the energy balance of every history is checked.
+    folder : Path
+        Where relative paths start: the study file's folder.
+    """
+
+    grid: Grid = field(default_factory=Grid.study)
+    records: tuple[str | RecordFile, ...] = STUDY_RECORDS
+    scaled: bool = True
+    outputs: tuple[str, ...] | None = None
+    certify: bool = True
+    folder: Path = Path()
+
+    @classmethod
+    def read(cls, path: str | Path) -> "Study":
+        """Read a study file; a field it does not name has the study's value.
+
+        Raises
+        ------
+        StudyError
+            When the file cannot be used; one line of text for each mistake, with field and line number.
+        """
+        path = Path(path)
+        try:
+            text = path.read_text(encoding="utf-8")
+        except OSError as error:
+            raise StudyError(f"{path}: cannot be read ({error.strerror})") from None
+        except UnicodeDecodeError:
+            raise StudyError(f"{path}: is not a text file in UTF-8") from None
+        return cls.parse(text, name=str(path), folder=path.parent)
+
+    @classmethod
+    def parse(cls, text: str, *, name: str = "study", folder: Path = Path()) -> "Study":
+        """Read a study from TOML text; `name` stands for the file in error messages."""
+        try:
+            table = tomllib.loads(text)
+        except tomllib.TOMLDecodeError as error:
+            raise StudyError(f"{name}: is not TOML: {error}") from None
+        values: dict[str, Any] = {}
+        try:
+            values = dict(_StudyFile.model_validate(table))
+        except ValidationError as error:
+            mistakes = [_mistake(detail["loc"], detail["type"], detail["msg"]) for detail in error.errors()]
+        else:
+            mistakes = [((key,), f"{key}: {sentence}") for key, sentence in contradictions(values)]
+        if mistakes:
+            lines = key_lines(text)
+            placed = sorted((line_of(lines, where), sentence) for where, sentence in mistakes)
+            raise StudyError("\n".join(f"{name}, line {line}: {sentence}" for line, sentence in placed))
+        grid = Grid(**{key: values.pop(key) for key in GRID_FIELDS})
+        return cls(grid=grid, folder=folder, **values)
+
+    def motions(self) -> tuple[GroundMotion, ...]:
+        """Load the records, in order.
+
+        Raises
+        ------
+        RecordError
+            When some cannot be used; one line of text for each.
+        """
+        found, mistakes = [], []
+        for record in self.records:
+            try:
+                found.append(find_record(record, folder=self.folder, scaled=self.scaled))
+            except RecordError as error:
+                mistakes.append(str(error))
+        if mistakes:
+            raise RecordError("\n".join(mistakes))
+        return tuple(found)
+
+    def to_toml(self) -> str:
+        """Return the study as the text of a study file, every field named, to be edited."""
+        grid = self.grid
+        kinetic = grid.kinetic_friction_coefficient
+        return f"""\
+# A study of fdspec: every (record, stiffness ratio, pretension, period). Units are SI.
+# A field left out has the value of the study on the nine records.
+
+# Names of the catalogue (fdspec records list) or record files, relative to this file; what a file does not
+# say of itself goes into a table: {{ path = "a.txt", units = "g", dt = 0.01, channel = "EW", name = "b" }}.
+records = {_records_text(self.records)}
+# Scale the stand-ins of the catalogue to the study's peak ground acceleration.
+scaled = {_bool(self.scaled)}
+
+# Axes: a list, {{ start, stop, step }} or {{ start, stop, num }}, ends included.
+# Brace over frame stiffness.
+stiffness_ratio = {_axis_text(grid.stiffness_ratio)}
+# N, the total normal force on the sliding surface; 0 slides freely, inf never.
+pretension = {_axis_text(grid.pretension)}
+# s, of the frame without its brace.
+period = {_axis_text(grid.period)}
+
+# kg
+floor_mass = {grid.floor_mass!r}
+# kg; 0.0 is the massless brace.
+brace_mass = {grid.brace_mass!r}
+# Of the frame without its brace.
+damping_ratio = {grid.damping_ratio!r}
+friction_coefficient = {grid.friction_coefficient!r}
+# While sliding, at most the one above; left out, equal to it.
+{"# kinetic_friction_coefficient = 0.4" if kinetic is None else f"kinetic_friction_coefficient = {kinetic!r}"}
+# Newtons on the sliding surface for each newton of pretension.
+normal_force_factor = {grid.normal_force_factor!r}
+# Of the brace on its own.
+brace_damping_ratio = {grid.brace_damping_ratio!r}
+
+# Variables of the cube; left out, these. Only on request: {", ".join(ON_REQUEST)}.
+{"# " if self.outputs is None else ""}outputs = {_strings(OUTPUTS if self.outputs is None else self.outputs)}
+# Check the energy balance of every history.
+certify = {_bool(self.certify)}
+"""
+
+
+def is_catalogued(record: str) -> bool:
+    """Say whether this is a name of the catalogue, upper or lower case."""
+    return any(record.upper() == entry.name for entry in catalogue())
+
+
+def find_record(record: str | RecordFile, *, folder: Path = Path(), scaled: bool = True) -> GroundMotion:
+    """Load a record by its name in the catalogue or, when it is none, by its path relative to `folder`.
+
+    Raises
+    ------
+    RecordError
+        When there is no such name and no such file, or the file cannot be used.
+    """
+    if isinstance(record, str):
+        path = folder / record
+        looks_like_path = bool(path.suffix) or len(Path(record).parts) > 1 or path.exists()
+        if is_catalogued(record) or not looks_like_path:
+            return load_record(record, scaled=scaled)
+        record = RecordFile(record)
+    about = {key: value for key, value in asdict(record).items() if key != "path"}
+    return read_record(folder / record.path, **about)
+
+
+def even_axis(spec: Mapping[str, Any]) -> FloatArray:
+    """Return the points of { start, stop, step } or { start, stop, num }, both ends included.
+
+    Steps are counted in decimals, so that 0.05, 0.10, ... are the floats one would write.
+    """
+    if unknown := [key for key in spec if key not in {"start", "stop", "step", "num"}]:
+        raise ValueError(
+            f"unknown key {unknown[0]!r}; {{ start, stop, step }} or {{ start, stop, num }} is known"
+        )
+    if "start" not in spec or "stop" not in spec or ("step" in spec) == ("num" in spec):
+        raise ValueError(f"needs start, stop and one of step and num, got {', '.join(spec) or 'nothing'}")
+    for key, value in spec.items():
+        if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value):
+            raise ValueError(f"{key} must be a finite number, got {value!r}")
+    start, stop = Decimal(repr(spec["start"])), Decimal(repr(spec["stop"]))
+    if "num" in spec:
+        if not isinstance(spec["num"], int) or not 2 <= spec["num"] <= MAX_AXIS:
+            raise ValueError(f"num must be an integer from 2 to {MAX_AXIS}, got {spec['num']}")
+        steps = spec["num"] - 1
+        return np.array([float(start + (stop - start) * k / steps) for k in range(steps + 1)])
+    step = Decimal(repr(spec["step"]))
+    if step <= 0 or stop < start:
+        raise ValueError(f"step must be positive and stop not before start, got {start} to {stop} by {step}")
+    if (stop - start) / step >= MAX_AXIS:
+        raise ValueError(f"has more than {MAX_AXIS} points: {start} to {stop} by {step}")
+    if (stop - start) % step:
+        raise ValueError(f"steps of {step} from {start} do not end on {stop}")
+    return np.array([float(start + step * k) for k in range(int((stop - start) / step) + 1)])
+
+
+def _mistake(where: tuple[str | int, ...], kind: str, message: str) -> tuple[tuple[str | int, ...], str]:
+    """Turn one of pydantic's complaints into a sentence that names the field."""
+    name = str(where[0])
+    if kind == "extra_forbidden":
+        near = difflib.get_close_matches(name, _StudyFile.model_fields, n=1)
+        hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(_StudyFile.model_fields)}"
+        return where, f"{name}: is not a field of a study; {hint}"
+    if kind == "value_error":
+        return where, f"{name}: {message.removeprefix('Value error, ')}"
+    at = f" at index {where[1]}" if len(where) > 1 else ""
+    return where, f"{name}: {_TYPE_MISTAKES.get(kind, message)}{at}"
+
+
+_TYPE_MISTAKES: Final = {
+    "bool_type": "must be true or false",
+    "string_type": "must be a string",
+    "tuple_type": "must be a list",
+}
+"""What pydantic calls a wrong type, in the words of TOML."""
+
+
+def _field(name: str, value: object) -> object:
+    if name in AXES and isinstance(value, dict):
+        value = even_axis(value)
+    return checked(name, value)
+
+
+def _record(value: object) -> str | RecordFile:
+    if isinstance(value, str):
+        return value
+    if not isinstance(value, dict):
+        raise ValueError(f"must be a name, a path or a table, got {value!r}")
+    known = [field.name for field in fields(RecordFile)]
+    if unknown := [key for key in value if key not in known]:
+        raise ValueError(f"unknown key {unknown[0]!r} of a record; known are {', '.join(known)}")
+    if "path" not in value:
+        raise ValueError("a record given as a table needs path, its file")
+    for key, part in value.items():
+        if key == "dt" and (
+            isinstance(part, bool) or not isinstance(part, int | float) or not 0 < part < np.inf
+        ):
+            raise ValueError(f"dt of a record must be positive seconds, got {part!r}")
+        if key != "dt" and not isinstance(part, str):
+            raise ValueError(f"{key} of a record must be a string, got {part!r}")
+    return RecordFile(**value)
+
+
+def _distinct(values: tuple[Any, ...]) -> tuple[Any, ...]:
+    if not values:
+        raise ValueError("must name at least one, is empty")
+    for index, value in enumerate(values):
+        if value in values[:index]:
+            raise ValueError(f"names {value!r} twice")
+    return values
+
+
+def _output(value: str) -> str:
+    known = (*OUTPUTS, *ON_REQUEST)
+    if value not in known:
+        near = difflib.get_close_matches(value, known, n=1)
+        hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
+        raise ValueError(f"does not know {value!r}; {hint}")
+    return value
+
+
+def _study_file() -> type[BaseModel]:
+    """Build the model of a study file from the fields of `Grid`, so that there is one list of them."""
+    study = Grid.study()
+    scalars_and_axes: Any = {
+        name: (Annotated[Any, PlainValidator(partial(_field, name))], getattr(study, name))
+        for name in GRID_FIELDS
+    }
+    records = Annotated[tuple[Annotated[Any, PlainValidator(_record)], ...], AfterValidator(_distinct)]
+    output = Annotated[StrictStr, AfterValidator(_output)]
+    outputs = Annotated[tuple[output, ...], AfterValidator(_distinct)]
+    return create_model(
+        "StudyFile",
+        __config__=ConfigDict(extra="forbid"),
+        records=(records, STUDY_RECORDS),
+        scaled=(StrictBool, True),
+        outputs=(outputs | None, None),
+        certify=(StrictBool, True),
+        **scalars_and_axes,
+    )
+
+
+_StudyFile: Final = _study_file()
+
+
+def _axis_text(axis: FloatArray) -> str:
+    """Write an axis as { start, stop, step } where that gives the same floats, else as a list."""
+    if axis.size > 3:
+        start, second, stop = (Decimal(repr(float(axis[k]))) for k in (0, 1, -1))
+        spec = {"start": float(start), "stop": float(stop), "step": float(second - start)}
+        try:
+            even = np.array_equal(even_axis(spec), axis)
+        except ValueError:
+            even = False
+        if even:
+            return "{ " + ", ".join(f"{key} = {value!r}" for key, value in spec.items()) + " }"
+    return "[" + ", ".join(repr(float(value)) for value in axis) + "]"
+
+
+def _records_text(records: tuple[str | RecordFile, ...]) -> str:
+    return (
+        "[" + ", ".join(_string(one) if isinstance(one, str) else _table_text(one) for one in records) + "]"
+    )
+
+
+def _table_text(record: RecordFile) -> str:
+    given = {key: value for key, value in asdict(record).items() if value is not None}
+    parts = [
+        f"{key} = {_string(value) if isinstance(value, str) else repr(value)}" for key, value in given.items()
+    ]
+    return "{ " + ", ".join(parts) + " }"
+
+
+def _string(value: str) -> str:
+    """Write a TOML string: JSON's escapes are TOML's, but for the delete character."""
+    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007F")
+
+
+def _strings(values: tuple[str, ...]) -> str:
+    return "[" + ", ".join(map(_string, values)) + "]"
+
+
+def _bool(value: bool) -> str:
+    return "true" if value else "false"

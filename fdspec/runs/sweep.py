@@ -1,0 +1,324 @@
+"""Grid and ground motions -> the cube of single-storey frames."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from fdspec.errors import InvalidInput
+from fdspec.methods import EXACT, Method, chosen_method
+from fdspec.methods.batch import integrate_by_method
+from fdspec.model.grid import Grid
+from fdspec.model.motion import GroundMotion
+from fdspec.runs.cube import assemble, chosen, named
+from fdspec.scheduling.threads import Task, cores, fan_out, plan
+from fdspec.variables import CUBE, STUDY_DIMS
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+Columns = tuple[FloatArray, FloatArray, FloatArray]
+
+SECONDS_PER_SAMPLE: Final = 8e-9
+"""Core time of one history for each sample of its record, roughly; for plans, not for results."""
+
+BARE: Final = {
+    "elastic_acceleration": "peak_acceleration",
+    "bare_peak_displacement": "peak_displacement",
+    "bare_peak_base_shear": "peak_base_shear",
+    "bare_strain_energy_area": "strain_energy_area",
+    "bare_peak_strain_energy": "peak_strain_energy",
+}
+"""Output over (record, period) -> what it is of the frame without brace."""
+
+BRACED: Final = {
+    "braced_acceleration": "peak_acceleration",
+    "braced_peak_displacement": "peak_displacement",
+    "braced_peak_base_shear": "peak_base_shear",
+}
+"""Output over (record, stiffness_ratio, period) -> what it is where the damper never slips."""
+
+STRAIN: Final = ("strain_energy_area", "peak_strain_energy")
+"""Results of a pass of their own over every history."""
+
+RESPONSES: Final = tuple(v.name for v in CUBE.values() if v.dims == STUDY_DIMS)
+_KNOWN: Final = (*RESPONSES, *BARE, *BRACED)
+OUTPUTS: Final = tuple(name for name in _KNOWN if not CUBE[name].on_request)
+ON_REQUEST: Final = tuple(name for name in _KNOWN if CUBE[name].on_request)
+"""Outputs that are computed only where they are named."""
+
+
+def sweep(
+    motions: GroundMotion | Sequence[GroundMotion],
+    *,
+    method: str | Method = EXACT,
+    period: ArrayLike,
+    pretension: ArrayLike,
+    stiffness_ratio: ArrayLike,
+    floor_mass: float = 20e3,
+    brace_mass: float = 50.0,
+    damping_ratio: float = 0.05,
+    friction_coefficient: float = 0.5,
+    kinetic_friction_coefficient: float | None = None,
+    normal_force_factor: float = 1.0,
+    brace_damping_ratio: float = 0.0,
+    outputs: Iterable[str] | None = None,
+    certify: bool = True,
+    workers: int | None = None,
+    scheduler: str = "threads",
+    columns_per_task: int | None = None,
+    client: Client | None = None,
+    store: str | os.PathLike[str] | None = None,
+    restart: bool = False,
+    progress: bool = False,
+) -> xr.Dataset:
+    """Compute the cube: peaks of a single-storey frame over record, stiffness ratio, pretension and period.
+
+    Each history is integrated exactly, event by event, under a ground acceleration that is linear
+    between samples; see `fdspec.simulate` for one of them with its course in time.
+
+    Parameters
+    ----------
+    motions : GroundMotion or sequence of them
+        Named differently; their names become the ``record`` coordinate.
+    method : str or Method
+        "exact", or one of the methods that the study compares, as for `fdspec.simulate`; the limits that
+        ride along are exact in any case.
+    period, pretension, stiffness_ratio : array_like
+        Axes in s, N and 1, strictly increasing; see `fdspec.model.grid.Grid`.
+    floor_mass, brace_mass : float, kg
+        A brace mass of 0 is the massless brace.
+    damping_ratio, brace_damping_ratio : float
+        Of the frame without its brace, and of the brace on its own.
+    friction_coefficient, kinetic_friction_coefficient, normal_force_factor : float
+        Slip force = friction_coefficient * normal_force_factor * pretension.
+    outputs : iterable of str, optional
+        Variables of the cube; unless given, all but those of `ON_REQUEST`.
+    certify : bool
+        Whether to compute ``energy_error``; without it the sweep is faster.
+    workers : int, optional
+        Threads (or processes); one a core unless given.
+    scheduler : str
+        A scheduler of dask: "threads", "processes" or "synchronous".
+    columns_per_task : int, optional
+        (stiffness ratio, period) pairs of one task; about 0.2 s of work unless given.  No result
+        depends on it.
+    client : distributed.Client, optional
+        Any cluster of dask.distributed, in place of threads here.
+    store : path, optional
+        A Zarr store, ``cube.zarr``, into which the workers write block by block what they compute: more than
+        memory holds.  When it is there, from a sweep that was stopped, only what is missing is computed.
+    restart : bool
+        Whether a store that is there is removed first.
+    progress : bool
+        Show a bar on stderr where it is a terminal.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dims (record, stiffness_ratio, pretension, period); variables, units and meanings are those
+        of `fdspec.variables.CUBE`.  With a store it is read from there when it is used.
+
+    Raises
+    ------
+    InvalidInput
+        For an argument that cannot be used, by name and value.
+    StoreError
+        For a store that holds another sweep, with what differs, or that cannot be written.
+
+    Notes
+    -----
+    The frame is the study's example (its Figure 7): k_f = floor_mass (2 pi / period)^2,
+    k_d = stiffness_ratio k_f; equations (2) to (7).
+    """
+    grid = Grid(
+        stiffness_ratio=stiffness_ratio,  # type: ignore[arg-type]
+        pretension=pretension,  # type: ignore[arg-type]
+        period=period,  # type: ignore[arg-type]
+        floor_mass=floor_mass,
+        brace_mass=brace_mass,
+        damping_ratio=damping_ratio,
+        friction_coefficient=friction_coefficient,
+        kinetic_friction_coefficient=kinetic_friction_coefficient,
+        normal_force_factor=normal_force_factor,
+        brace_damping_ratio=brace_damping_ratio,
+    )
+    motions = named(motions)
+    wanted = chosen(OUTPUTS if outputs is None else outputs, (*OUTPUTS, *ON_REQUEST), certify)
+    strain = [name for name in wanted if BARE.get(name, name) in STRAIN]
+    other = chosen_method(method)
+    if strain and other is not None:
+        raise InvalidInput(f"outputs {', '.join(strain)} need method 'exact', got {other.name!r}")
+    n_sr, n_f, n_t = grid.shape
+    seconds = [_core_seconds(motion.n, grid, certify) for motion in motions]
+    run = partial(_run_columns, grid, certify, bool(strain), other)
+    fan = partial(
+        fan_out,
+        motions=motions,
+        each=n_f,
+        warm=_warm,
+        workers=workers,
+        scheduler=scheduler,
+        client=client,
+        progress=progress,
+    )
+    parameters = {name: getattr(grid, name) for name in grid.__dataclass_fields__}
+    cube_of = partial(
+        assemble,
+        axes={
+            "stiffness_ratio": grid.stiffness_ratio,
+            "pretension": grid.pretension,
+            "period": grid.period,
+            "slip_force": grid.slip_force,
+            "kinetic_slip_force": grid.kinetic_slip_force,
+        },
+        registry=CUBE,
+        motions=motions,
+        title="Peak response of single-storey frames with friction dampers",
+        parameters={
+            **parameters,
+            **({} if other is None else other.parameters),
+            "certify": certify,
+            "outputs": list(wanted),
+        },
+        command="fdspec.sweep",
+    )
+    if store is not None:
+        from fdspec.runs.resumable import sweep_into
+
+        return sweep_into(
+            store,
+            cube_of({}),
+            [CUBE[name] for name in wanted],
+            partial(_block, grid, run, wanted),
+            fan,
+            seconds=sum(seconds),
+            columns_per_task=columns_per_task,
+            restart=restart,
+        )
+    tasks = plan(n_sr * n_t, seconds, columns_per_task, "columns_per_task")
+    return cube_of(_variables(grid, len(motions), tasks, fan(run, tasks=tasks), wanted))
+
+
+def estimate(motions: Sequence[GroundMotion], grid: Grid, certify: bool = True) -> float:
+    """Wall seconds that a sweep is expected to take on this machine's cores, roughly."""
+    return _core_seconds(sum(motion.n for motion in motions), grid, certify) / cores()
+
+
+def timed(grid: Grid, motion: GroundMotion, certify: bool = True) -> tuple[float, int]:
+    """Compute all columns of a small grid in this thread; return its core seconds and changes of phase."""
+    from fdspec.kernels.storey.history import RESULTS
+
+    _warm()
+    columns = np.arange(grid.stiffness_ratio.size * grid.period.size)
+    started = time.thread_time()
+    results, _, _ = _run_columns(grid, certify, False, None, columns, motion)
+    return time.thread_time() - started, int(results[:, :, RESULTS.index("transitions")].sum())
+
+
+def _core_seconds(samples: int, grid: Grid, certify: bool) -> float:
+    return samples * grid.size * SECONDS_PER_SAMPLE * (1.35 if certify else 1.0)
+
+
+def _warm() -> None:
+    import fdspec.engines.batch  # noqa: F401
+
+
+def _frames(grid: Grid, columns: IntArray) -> FloatArray:
+    """Rows of floor mass, damping, stiffness, brace mass, damping, stiffness for these pairs."""
+    ratio, period = np.unravel_index(columns, (grid.stiffness_ratio.size, grid.period.size))
+    stiffness = grid.floor_mass * (2.0 * np.pi / grid.period[period]) ** 2
+    brace = grid.stiffness_ratio[ratio] * stiffness
+    rows = np.empty((columns.size, 6))
+    rows[:, 0] = grid.floor_mass
+    rows[:, 1] = 2.0 * grid.damping_ratio * np.sqrt(stiffness * grid.floor_mass)
+    rows[:, 2] = stiffness
+    rows[:, 3] = grid.brace_mass
+    rows[:, 4] = 2.0 * grid.brace_damping_ratio * np.sqrt(brace * grid.brace_mass)
+    rows[:, 5] = brace
+    return rows
+
+
+def _run_columns(
+    grid: Grid,
+    certify: bool,
+    strain: bool,
+    other: Method | None,
+    columns: IntArray,
+    motion: GroundMotion,
+) -> Columns:
+    """Integrate some (stiffness ratio, period) pairs: all pretensions, never slipping, without brace.
+
+    Each in the order of RESULTS; where wanted, those of STRAIN follow, save of braced frames.
+    """
+    from fdspec.engines.batch import integrate_columns
+
+    frames = _frames(grid, columns)
+    exact = slice(None) if other is None else slice(0)
+    slip_force, kinetic = grid.slip_force, grid.kinetic_slip_force
+    braced, results = integrate_columns(frames, slip_force[exact], kinetic[exact], motion, certify=certify)
+    if other is not None:
+        results = integrate_by_method(other, frames, slip_force, kinetic, motion)
+    bare = frames[columns < grid.period.size].copy()  # the first stiffness ratio's pairs stand for all
+    bare[:, 3:] = 0.0
+    free, _ = integrate_columns(bare, np.empty(0), np.empty(0), motion, certify=False)
+    if strain:
+        from fdspec.engines.strain import strain_of_columns
+
+        never = np.array([np.inf]), np.array([0.0])
+        added = strain_of_columns(frames, grid.slip_force, grid.kinetic_slip_force, motion)
+        results = np.concatenate([results, added], axis=-1)
+        free = np.concatenate([free, strain_of_columns(bare, *never, motion)[:, 0]], axis=-1)
+    return results, braced, free
+
+
+def _block(
+    grid: Grid,
+    run: Callable[[IntArray, GroundMotion], Columns],
+    wanted: Sequence[str],
+    columns: IntArray,
+    motion: GroundMotion,
+) -> dict[str, NDArray[np.generic]]:
+    """Compute the part of the cube that these columns, a block of (stiffness ratio, period), make up."""
+    ratio, period = map(np.unique, np.unravel_index(columns, (grid.stiffness_ratio.size, grid.period.size)))
+    part = replace(grid, stiffness_ratio=grid.stiffness_ratio[ratio], period=grid.period[period])
+    mine = [name for name in wanted if ratio[0] == 0 or "stiffness_ratio" in CUBE[name].dims]
+    return _variables(part, 1, [Task(0, np.arange(columns.size))], [run(columns, motion)], mine)
+
+
+def _variables(
+    grid: Grid,
+    n_r: int,
+    tasks: Sequence[Task],
+    parts: Sequence[Columns],
+    wanted: Sequence[str],
+) -> dict[str, NDArray[Any]]:
+    """Put what the tasks returned where it stands in the cube."""
+    from fdspec.kernels.storey.history import RESULTS
+
+    rows = (*RESULTS, *STRAIN)
+    n_sr, n_f, n_t = grid.shape
+    responses: dict[str, NDArray[Any]] = {
+        name: np.empty((n_r, n_sr, n_f, n_t), dtype=CUBE[name].dtype) for name in wanted if name in rows
+    }
+    bare: dict[str, NDArray[Any]] = {name: np.empty((n_r, n_t)) for name in wanted if name in BARE}
+    braced: dict[str, NDArray[Any]] = {name: np.empty((n_r, n_sr, n_t)) for name in wanted if name in BRACED}
+    for (r, columns), (out, held, free) in zip(tasks, parts, strict=True):
+        ratio, period = np.unravel_index(columns, (n_sr, n_t))
+        for name, values in responses.items():
+            values[r, ratio, :, period] = out[:, :, rows.index(name)]
+        for name, values in braced.items():
+            values[r, ratio, period] = held[:, rows.index(BRACED[name])]
+        for name, values in bare.items():
+            values[r, columns[columns < n_t]] = free[:, rows.index(BARE[name])]
+    return responses | bare | braced

@@ -1,0 +1,241 @@
+"""Buildings and ground motions -> the cube of N-storey buildings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from fdspec.model.building import Frame
+from fdspec.model.building_grid import BuildingGrid, Buildings
+from fdspec.model.motion import GroundMotion
+from fdspec.runs.cube import assemble, chosen, named
+from fdspec.scheduling.threads import Task, fan_out, plan
+from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+SECONDS_PER_SAMPLE: Final = 0.8e-6
+"""Core time of one history for each sample of its record and N^1.5, roughly; for plans, not for results."""
+
+LIMITS: Final = ("elastic_acceleration", "braced_acceleration")
+RESPONSES: Final = tuple(v.name for v in BUILDING_CUBE.values() if v.dims[:4] == BUILDING_DIMS)
+OUTPUTS: Final = (*RESPONSES, *LIMITS)
+
+
+def sweep_buildings(
+    motions: GroundMotion | Sequence[GroundMotion],
+    buildings: Buildings,
+    *,
+    slip_scale: ArrayLike,
+    stiffness_scale: ArrayLike,
+    outputs: Iterable[str] | None = None,
+    certify: bool = True,
+    workers: int | None = None,
+    scheduler: str = "threads",
+    cells_per_task: int | None = None,
+    client: Client | None = None,
+    progress: bool = False,
+) -> xr.Dataset:
+    """Compute the cube of buildings: peaks of every storey over record, building and two factors on dampers.
+
+    Each history is integrated exactly, event by event, under a ground acceleration that is linear
+    between samples; see `fdspec.simulate` for one of them with its course in time.
+
+    Parameters
+    ----------
+    motions : GroundMotion or sequence of them
+        Named differently; their names become the ``record`` coordinate.
+    buildings : Building, sequence of them, or mapping of names to them
+        All with the same number of storeys N; the names become the ``building`` coordinate, "1", "2"
+        and so on where there are none.
+    slip_scale : array_like
+        Factors on the slip forces of all dampers, which is on their pretension; strictly increasing.
+        0 slides freely, infinity never slips.  A slip force that is 0 or infinite stays so under every
+        factor.
+    stiffness_scale : array_like
+        Factors on the stiffness of all braces, positive, strictly increasing.  A dashpot beside a brace
+        goes with the square root: the brace keeps its damping ratio.  The frame's own damping stays.
+    outputs : iterable of str, optional
+        Variables of the cube; all unless given.
+    certify : bool
+        Whether to compute ``energy_error``; without it the sweep is faster.
+    workers : int, optional
+        Threads (or processes); one a core unless given.
+    scheduler : str
+        A scheduler of dask: "threads", "processes" or "synchronous".
+    cells_per_task : int, optional
+        Histories of one task; about 0.2 s of work unless given.  No result depends on it.
+    client : distributed.Client, optional
+        Any cluster of dask.distributed, in place of threads here.
+    progress : bool
+        Show a bar on stderr where it is a terminal.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dims (record, building, stiffness_scale, slip_scale) and, for what each storey has of its own,
+        storey; variables, units and meanings are those of `fdspec.variables.BUILDING_CUBE`.
+
+    Raises
+    ------
+    InvalidInput
+        For an argument that cannot be used, by name and value.
+
+    Notes
+    -----
+    The equations of motion are the study's (19) to (25).  Of the limits that ride along,
+    ``elastic_acceleration`` is the frame without braces.  A damper that slides freely is another
+    building: the braces stand on the floors and swing there, and ``slip_scale`` 0 computes it.
+
+    Examples
+    --------
+    >>> import fdspec
+    >>> frame = fdspec.Building.from_periods([40e3, 40e3], 0.5, 0.3, slip_force=50e3, brace_mass=50.0)
+    >>> motion = fdspec.GroundMotion([0.0, 3.0, -2.0, 0.0], 0.1, name="mine")
+    >>> cube = fdspec.sweep_buildings(motion, {"office": frame}, slip_scale=[0.5, 1], stiffness_scale=1)
+    >>> dict(cube.peak_drift.sizes)
+    {'record': 1, 'building': 1, 'stiffness_scale': 1, 'slip_scale': 2, 'storey': 2}
+    """
+    grid = BuildingGrid(buildings, stiffness_scale, slip_scale)
+    motions = named(motions)
+    wanted = chosen(outputs, OUTPUTS, certify)
+    histories = _ends(grid)[-1 if set(LIMITS) & set(wanted) else 0]
+    seconds = [histories * motion.n * SECONDS_PER_SAMPLE * grid.n_storeys**1.5 for motion in motions]
+    tasks = plan(histories, seconds, cells_per_task, "cells_per_task")
+    parts = fan_out(
+        partial(_run, grid, certify),
+        motions,
+        tasks,
+        each=1,
+        warm=_warm,
+        workers=workers,
+        scheduler=scheduler,
+        client=client,
+        progress=progress,
+    )
+    return assemble(
+        _variables(grid, len(motions), tasks, parts, wanted),
+        _axes(grid),
+        BUILDING_CUBE,
+        motions,
+        title="Peak response of buildings with friction dampers",
+        parameters={
+            "buildings": {
+                name: building.parameters for name, building in zip(grid.names, grid.buildings, strict=True)
+            },
+            "stiffness_scale": grid.stiffness_scale,
+            "slip_scale": grid.slip_scale,
+            "certify": certify,
+            "outputs": list(wanted),
+        },
+        command="fdspec.sweep_buildings",
+    )
+
+
+def _ends(grid: BuildingGrid) -> tuple[int, int, int]:
+    """Where the histories of one record end: those of the cells, of braced buildings, of bare frames."""
+    n_b, n_k, n_s = grid.shape
+    cells = n_b * n_k * n_s
+    return cells, cells + n_b * n_k, cells + n_b * n_k + n_b
+
+
+def _frame(grid: BuildingGrid, history: int) -> Frame:
+    """Return the building of one history as the kernel takes it: its dampers scaled, held or taken away."""
+    from fdspec.kernels.frame import model as row
+
+    _, n_k, n_s = grid.shape
+    cells, braced, _ = _ends(grid)
+    column = history // n_s if history < cells else history - cells
+    b, k = divmod(column, n_k) if history < braced else (history - braced, 0)
+    given = grid.buildings[b].frame
+    properties = given.properties.copy()
+    if history < braced:
+        properties[row.BRACE_STIFFNESS] = grid.brace_stiffness[b, k]
+        properties[row.BRACE_DAMPING] = grid.brace_damping[b, k]
+    else:
+        properties[[row.BRACE_MASS, row.BRACE_STIFFNESS, row.BRACE_DAMPING]] = 0.0
+    if history < cells:
+        properties[row.SLIP_FORCE] = grid.slip_force[b, history % n_s]
+        properties[row.KINETIC_SLIP_FORCE] = grid.kinetic_slip_force[b, history % n_s]
+    else:
+        never = np.where(properties[row.BRACE_STIFFNESS] > 0.0, np.inf, 0.0)
+        properties[[row.SLIP_FORCE, row.KINETIC_SLIP_FORCE]] = never
+    return given._replace(properties=properties)
+
+
+def _warm() -> None:
+    import fdspec.engines.many_storeys  # noqa: F401
+
+
+def _run(
+    grid: BuildingGrid, certify: bool, histories: IntArray, motion: GroundMotion
+) -> tuple[FloatArray, FloatArray]:
+    """Integrate some histories of a record: results by storey (m, rows, N) and totals (m, entries)."""
+    from fdspec.engines.many_storeys import peaks_of
+
+    cells = _ends(grid)[0]
+    results = [
+        peaks_of(_frame(grid, int(history)), motion, certify=certify and bool(history < cells))
+        for history in histories
+    ]
+    return np.stack([by_storey for by_storey, _ in results]), np.stack([totals for _, totals in results])
+
+
+def _variables(
+    grid: BuildingGrid,
+    n_r: int,
+    tasks: Sequence[Task],
+    parts: Sequence[tuple[FloatArray, FloatArray]],
+    wanted: Sequence[str],
+) -> dict[str, NDArray[np.generic]]:
+    """Put what the tasks returned where it stands in the cube."""
+    from fdspec.kernels.frame.history import STOREY_RESULTS, TOTALS
+
+    cells, braced, bare = _ends(grid)
+    histories = 1 + max(int(task.items.max()) for task in tasks)
+    by_storey = np.empty((len(STOREY_RESULTS), n_r, histories, grid.n_storeys))
+    totals = np.empty((len(TOTALS), n_r, histories))
+    for (r, items), (of_storeys, of_all) in zip(tasks, parts, strict=True):
+        by_storey[:, r, items] = of_storeys.transpose(1, 0, 2)
+        totals[:, r, items] = of_all.T
+    results = dict(zip(STOREY_RESULTS, by_storey, strict=True)) | dict(zip(TOTALS, totals, strict=True))
+    results["peak_base_shear"] = results["peak_storey_shear"][..., 0]
+    results["residual_drift"] = np.diff(results["residual_displacement"], prepend=0.0)
+    acceleration = results["peak_acceleration"]
+    limits = {
+        "elastic_acceleration": acceleration[:, braced:bare],
+        "braced_acceleration": acceleration[:, cells:braced],
+    }
+    n_b, n_k, n_s = grid.shape
+    lengths = {"record": n_r, "building": n_b, "stiffness_scale": n_k, "slip_scale": n_s}
+    lengths["storey"] = grid.n_storeys
+    variables: dict[str, NDArray[np.generic]] = {}
+    for name in wanted:
+        variable = BUILDING_CUBE[name]
+        values = limits[name] if name in limits else results[name][:, :cells]
+        shape = [lengths[dim] for dim in variable.dims]
+        variables[name] = values.reshape(shape).astype(variable.dtype)
+    return variables
+
+
+def _axes(grid: BuildingGrid) -> dict[str, object]:
+    return {
+        "building": list(grid.names),
+        "stiffness_scale": grid.stiffness_scale,
+        "slip_scale": grid.slip_scale,
+        "storey": np.arange(1, grid.n_storeys + 1),
+        "slip_force": grid.slip_force,
+        "kinetic_slip_force": grid.kinetic_slip_force,
+        "brace_stiffness": grid.brace_stiffness,
+        "bare_period": [float(building.bare_periods[0]) for building in grid.buildings],
+        "braced_period": grid.braced_period,
+    }

@@ -1,0 +1,229 @@
+"""Tasks on a cluster of dask.distributed; the only importer of distributed.
+
+What many tasks share (the work with its grid, each record) is a task of its own: a worker gets it once and
+keeps it, and when the worker that held it dies it is made again.
+"""
+
+from __future__ import annotations
+
+import logging
+import socket
+import time
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import CancelledError
+from contextlib import contextmanager, suppress
+from functools import cache
+from itertools import islice
+from typing import TYPE_CHECKING, Any, Final, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fdspec import __version__
+from fdspec.errors import ClusterError, FdspecError
+from fdspec.model.motion import GroundMotion
+
+if TYPE_CHECKING:
+    from distributed import Client, Future
+
+    from fdspec.scheduling.threads import Task
+
+IntArray = NDArray[np.int64]
+Result = TypeVar("Result")
+
+IN_FLIGHT: Final = 2000
+"""Tasks that the scheduler knows at a time: many for any cluster that grows by need, few for its memory."""
+
+RETRIES: Final = 2
+"""More attempts at a task that failed: a network file system may come back."""
+
+DEATHS: Final = 2
+"""Times that a task may be given up by the scheduler, which each time saw it take several workers along."""
+
+PATIENCE: Final = 120.0
+"""s that a lost scheduler, or the first worker, is waited for."""
+
+CONNECT: Final = 30.0
+"""s that a scheduler may take to answer."""
+
+log = logging.getLogger(__name__)
+
+
+@contextmanager
+def connected(address: str) -> Iterator[Client]:
+    """Give a client of the scheduler at this address, such as tcp://host:8786."""
+    with _installed():
+        from distributed import Client
+    try:
+        client = Client(address, timeout=CONNECT, set_as_default=False)
+    except (OSError, ValueError) as error:
+        raise ClusterError(f"there is no scheduler at {address}: {error}") from error
+    with client:
+        log.info("scheduler %s with %d workers", address, len(client.scheduler_info(-1)["workers"]))
+        yield client
+
+
+@contextmanager
+def processes(count: int) -> Iterator[Client]:
+    """Give a client of so many worker processes on this machine, each of one thread."""
+    with _installed():
+        from distributed import Client, LocalCluster
+    with (
+        LocalCluster(
+            n_workers=count,
+            threads_per_worker=1,
+            processes=True,
+            dashboard_address=":0",  # 8787 may be taken
+            silence_logs=logging.CRITICAL,
+        ) as cluster,
+        Client(cluster, set_as_default=False) as client,
+    ):
+        # One that is killed is started again by its nanny; should that give up too, this makes another.
+        cluster.adapt(minimum=count, maximum=count)
+        log.info("%d worker processes", count)
+        yield client
+
+
+def gather(
+    client: Client,
+    work: Callable[[IntArray, GroundMotion], Result],
+    motions: Sequence[GroundMotion],
+    tasks: Sequence[Task],
+    done: Callable[[Task], None],
+) -> list[Result]:
+    """Return the work's result for every task, in their order.
+
+    done: told of each task as it ends.  A worker that is lost costs what it was at; a scheduler that is lost
+    and comes back within PATIENCE costs what it knew, not what has come home.
+    """
+    results: dict[int, Result] = {}
+    deaths: dict[int, int] = {}
+    left = list(range(len(tasks)))
+    while left:
+        for index, outcome in _round(client, work, motions, tasks, left):
+            if isinstance(outcome, Exception):
+                deaths[index] = deaths.get(index, 0) + 1
+                log.warning("a task took its workers along: %s", outcome)
+                continue
+            results[index] = outcome
+            done(tasks[index])
+        left = [index for index in left if index not in results]
+        if doomed := [index for index in left if deaths.get(index, 0) >= DEATHS]:
+            names = sorted({motions[tasks[index].record].name for index in doomed})
+            raise ClusterError(
+                f"{len(doomed)} of {len(tasks)} tasks killed every worker that took them (records "
+                f"{', '.join(names)}): the workers may need more memory; the others are done"
+            )
+        if left:
+            log.warning("%d of %d tasks have to be sent again", len(left), len(tasks))
+            _wait_for_scheduler(client)
+    return [results[index] for index in range(len(tasks))]
+
+
+def _round(
+    client: Client,
+    work: Callable[[IntArray, GroundMotion], Result],
+    motions: Sequence[GroundMotion],
+    tasks: Sequence[Task],
+    left: Sequence[int],
+) -> Iterator[tuple[int, Any]]:
+    """Send tasks and give (index, result), or KilledWorker in the result's place; end when all are heard of.
+
+    Ends early, without a word of the others, when the scheduler is lost.
+    """
+    from distributed import KilledWorker, as_completed
+
+    here = version()
+    shared = client.submit(_itself, work, pure=False)
+    records: dict[int, Future[Any]] = {}
+    index_of: dict[Future[Any], int] = {}
+    waiting = iter(left)
+
+    def send(index: int) -> Future[Any]:
+        task = tasks[index]
+        if task.record not in records:
+            # Tasks come record by record; those in flight keep what they need.
+            for other in [record for record in records if record < task.record]:
+                del records[other]
+            records[task.record] = client.submit(_itself, motions[task.record], pure=False)
+        future = client.submit(
+            _run,
+            here,
+            shared,
+            task.items,
+            records[task.record],
+            pure=False,
+            retries=RETRIES,
+            priority=-index,
+        )
+        index_of[future] = index
+        return future
+
+    first = [send(index) for index in islice(waiting, IN_FLIGHT)]
+    completed = as_completed(first, loop=client.loop)
+    try:
+        for future in completed:
+            index = index_of.pop(future)
+            if future.status == "finished":
+                try:
+                    result = future.result()
+                except (OSError, CancelledError):  # the scheduler went between the word and the result
+                    return
+                yield index, result
+            elif future.status == "error":
+                error = future.exception()
+                if not isinstance(error, KilledWorker):
+                    raise error if isinstance(error, FdspecError) else ClusterError(_told(error)) from error
+                yield index, error
+            else:  # cancelled: the scheduler has gone, and all that it knew
+                return
+            for following in islice(waiting, 1):
+                completed.add(send(following))
+    finally:
+        with suppress(OSError, CancelledError):
+            client.cancel(list(index_of))
+
+
+@contextmanager
+def _installed() -> Iterator[None]:
+    try:
+        yield
+    except ImportError as error:
+        raise ClusterError(
+            f"workers in processes need more than fdspec alone ({error}): pip install 'fdspec[cluster]'"
+        ) from error
+
+
+@cache
+def version() -> str:
+    """Say which fdspec runs here, to the last character of its kernels."""
+    from fdspec.compiler.options import source_key
+
+    return f"{__version__}, kernels {source_key()}"
+
+
+def _itself(value: Result) -> Result:
+    return value
+
+
+def _run(
+    expected: str, work: Callable[[IntArray, GroundMotion], Result], items: IntArray, motion: GroundMotion
+) -> Result:
+    if version() != expected:
+        raise ClusterError(
+            f"worker {socket.gethostname()} runs fdspec {version()}, this is fdspec {expected}; "
+            "install one version everywhere"
+        )
+    return work(items, motion)
+
+
+def _wait_for_scheduler(client: Client) -> None:
+    until = time.monotonic() + PATIENCE
+    while client.status != "running":
+        if client.status == "closed" or time.monotonic() > until:
+            raise ClusterError("the scheduler is lost; start the sweep again when it is back")
+        time.sleep(0.2)
+
+
+def _told(error: BaseException | None) -> str:
+    return f"a task failed on the cluster: {type(error).__name__}: {error}"

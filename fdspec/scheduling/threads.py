@@ -1,0 +1,158 @@
+"""Tasks of many histories each, spread over threads or processes; the only importer of dask.
+
+Results do not depend on how items are shared out: each item is computed from itself and its motion alone.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import signal
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from functools import partial
+from types import FrameType
+from typing import TYPE_CHECKING, Any, Final, Generic, NamedTuple, TypeVar
+
+import dask
+import numpy as np
+from dask.callbacks import Callback
+from numpy.typing import NDArray
+
+from fdspec.errors import InvalidInput
+from fdspec.model.motion import GroundMotion
+from fdspec.scheduling.progress import progress as progress_bar
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+IntArray = NDArray[np.int64]
+Result = TypeVar("Result")
+
+TASK_SECONDS: Final = 0.2
+"""Aimed length of a task: long against what dask spends on one, short against the whole."""
+
+
+class Task(NamedTuple):
+    """Some items of one record."""
+
+    record: int
+    items: IntArray
+
+
+class Done(NamedTuple, Generic[Result]):
+    """What a task returns, and how many histories that took."""
+
+    histories: int
+    result: Result
+
+
+def cores() -> int:
+    """Cores of this machine, as many as dask starts workers."""
+    return os.cpu_count() or 1
+
+
+def plan(items: int, seconds: Sequence[float], per_task: int | None, argument: str) -> list[Task]:
+    """Share out the items of every record.
+
+    seconds: core time of all items under each record, roughly; per_task: items of a task where the user
+    has said so in this argument.  Each task takes every n-th item, so that neighbours, alike in cost, are
+    spread over tasks.
+    """
+    if per_task is not None and per_task < 1:
+        raise InvalidInput(f"{argument} must be at least 1, got {per_task}")
+    tasks = []
+    for record, cost in enumerate(seconds):
+        if per_task is None:
+            count = max(1, min(items, round(cost / TASK_SECONDS)))
+        else:
+            count = math.ceil(items / per_task)
+        tasks += [Task(record, np.arange(first, items, count)) for first in range(count)]
+    return tasks
+
+
+def fan_out(
+    work: Callable[[IntArray, GroundMotion], Result],
+    motions: Sequence[GroundMotion],
+    tasks: Sequence[Task],
+    *,
+    each: int,
+    warm: Callable[[], None],
+    workers: int | None,
+    scheduler: str,
+    progress: bool,
+    client: Client | None = None,
+    finished: int = 0,
+    what: str = "histories",
+) -> list[Result]:
+    """Return the work's result for every task, in their order.
+
+    work: a function of a module, or a partial of one, which other processes can import; each: histories
+    of an item; warm: loads the kernels, compiling them where no cache holds them, before many threads want
+    them; client: a cluster that takes the tasks instead; finished: histories done before, for the bar;
+    what: what the bar calls them.
+    """
+    if workers is not None and workers < 1:
+        raise InvalidInput(f"workers must be at least 1, got {workers}")
+    total = finished + each * sum(task.items.size for task in tasks)
+    if client is not None:
+        from fdspec.scheduling.cluster import gather
+
+        with progress_bar(total, what, shown=progress, finished=finished) as done:
+
+            def tell(task: Task) -> None:
+                done(each * task.items.size)
+
+            return gather(client, work, motions, tasks, tell)
+    records = [dask.delayed(motion, pure=False, traverse=False) for motion in motions]
+    counted = dask.delayed(partial(_counted, work, each), pure=False, traverse=False)
+    graph = [counted(task.items, records[task.record]) for task in tasks]
+    with progress_bar(total, what, shown=progress, finished=finished) as done, _reported(done):
+        with interrupted_at_last():
+            warm()
+        parts = dask.compute(*graph, scheduler=scheduler, num_workers=workers or cores())
+    return [part.result for part in parts]
+
+
+def _counted(
+    work: Callable[[IntArray, GroundMotion], Result], each: int, items: IntArray, motion: GroundMotion
+) -> Done[Result]:
+    return Done(each * items.size, work(items, motion))
+
+
+@contextmanager
+def interrupted_at_last() -> Iterator[None]:
+    """Raise KeyboardInterrupt at the end of this block for a Ctrl-C that was not heard inside it.
+
+    Loading kernels runs callbacks from C, and what is raised in one of those Python prints and forgets.
+    """
+    previous = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or not callable(previous):
+        yield
+        return
+    came = []
+
+    def remember(number: int, frame: FrameType | None) -> None:
+        came.append(number)
+        previous(number, frame)
+
+    signal.signal(signal.SIGINT, remember)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, previous)
+    if came:
+        raise KeyboardInterrupt
+
+
+@contextmanager
+def _reported(done: Callable[[int], None]) -> Iterator[None]:
+    """Tell ``done`` of the histories that each finished task held."""
+
+    def posttask(key: Any, result: Any, dsk: Any, state: Any, worker_id: Any) -> None:  # noqa: ARG001
+        if isinstance(result, Done):
+            done(result.histories)
+
+    with Callback(posttask=posttask):
+        yield

@@ -1,0 +1,1 @@
+"""What is done with a ground motion before and beside a frame: processing, intensity, spectra."""
