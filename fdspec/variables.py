@@ -70,9 +70,15 @@ PHASES: Final = MappingProxyType({-1: "slip_backward", 0: "stick", 1: "slip_forw
 """Phase code -> meaning; forward is a floor that moves faster than its brace."""
 
 STATUSES: Final = MappingProxyType(
-    {0: "ok", 1: "transition_cap_reached", 2: "non_finite_state", 3: "iteration_not_converged"}
+    {
+        0: "ok",
+        1: "transition_cap_reached",
+        2: "non_finite_state",
+        3: "iteration_not_converged",
+        4: "energy_not_closed",
+    }
 )
-"""Status code -> meaning, as the kernels return them; the last comes from methods that iterate alone."""
+"""Status code -> meaning, as the kernels return them."""
 
 
 def motion_variables(dims: tuple[str, ...]) -> tuple[Variable, ...]:

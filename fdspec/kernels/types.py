@@ -14,8 +14,26 @@ TRANSITION_CAP_REACHED: Final = 1
 NON_FINITE_STATE: Final = 2
 """Status: displacement or velocity is no longer a number."""
 
-STATUS_MEANINGS: Final = ("ok", "transition_cap_reached", "non_finite_state")
+ITERATION_NOT_CONVERGED: Final = 3
+"""Status of a method that iterates: a step's accelerations or forces did not settle."""
+ENERGY_NOT_CLOSED: Final = 4
+"""Status: the balance of all energies is off by more than ENERGY_TOLERANCE; the results cannot be trusted."""
+
+STATUS_MEANINGS: Final = (
+    "ok",
+    "transition_cap_reached",
+    "non_finite_state",
+    "iteration_not_converged",
+    "energy_not_closed",
+)
 """Name of each status, in the order of the codes."""
+
+ENERGY_TOLERANCE: Final = 1e-6
+"""Error of the energy balance, relative to the energy in play, above which a history is not ok.
+
+Rounding leaves 1e-15 to 1e-11 and grows with the number of changes of phase, to 1e-9 at the worst; a rule
+that went wrong, a missed change of phase say, leaves 1e-4 and more.  This stands between.
+"""
 
 TRANSITION_CAP: Final = 50_000_000
 """Changes of phase after which a history is given up: a guard against a loop, beyond any real one."""

@@ -10,11 +10,14 @@ from fdspec.kernels.frame.model import (
     BRACE_MASS,
     BRACE_STIFFNESS,
     FRICTION,
+    KINETIC_SLIP_FORCE,
+    MASSLESS,
     NO_BRACE,
     PLAIN,
     SLIP_FORCE,
     SLOWNESS,
 )
+from fdspec.kernels.frame.reset import LAST, patience
 from fdspec.kernels.frame.taylor import (
     ACCELERATION_REACH,
     DISPLACEMENT,
@@ -36,19 +39,48 @@ of a root's place, so storeys that change within it change together."""
 
 @inner
 def search(
-    frame, model, kind, phase, fresh, touching, series, reach, state, n, h, ground, rise, c, instants, signs
+    frame,
+    model,
+    kind,
+    phase,
+    fresh,
+    touching,
+    tally,
+    series,
+    reach,
+    state,
+    n,
+    h,
+    at,
+    soon,
+    ground,
+    rise,
+    c,
+    instants,
+    signs,
 ):
     """Fill instants[i], the fraction of the step at which storey i changes, and signs[i], its direction.
 
     Return the smallest instant (NO_ROOT where there is none).  A storey that has just begun to slip has
     fresh[i] leading terms of its sliding velocity that vanish; one that has just stuck at its limit, in
-    direction touching[i], as many of its distance to the limit.
+    direction touching[i], as many of its distance to the limit.  A massless brace that has just stuck is
+    known to carry kinetic friction, so the first of them is the difference to static friction.
+
+    at: time at the start, s; soon: time (s) within which changes of one storey are not told apart, see
+    :func:`fdspec.kernels.frame.reset.patience`.
     """
     first = NO_ROOT
     for i in range(phase.size):
         instants[i] = NO_ROOT
         if kind[i] == NO_BRACE:
             continue
+        held = 0.0
+        gap = 0.0
+        if kind[i] == MASSLESS:
+            held = max(0.0, tally[LAST, i] + patience(tally, i, soon) - at) / h
+            gap = frame[SLIP_FORCE, i] - frame[KINETIC_SLIP_FORCE, i]
+            if held >= 1.0:
+                continue
         if phase[i] == STICK:
             room = frame[SLIP_FORCE, i] - reach[REACTION_REACH, i]
             if touching[i] != 0 or not abs(series[REACTION, i + 1, 0]) < room:
@@ -58,7 +90,9 @@ def search(
                     frame[SLIP_FORCE, i],
                     room,
                     touching[i],
+                    gap,
                     fresh[i],
+                    held,
                     c,
                     signs,
                     i,
@@ -72,7 +106,7 @@ def search(
                 series[SLIDING, i + 1, 1] = 0.0
             for k in range(n + 1):
                 c[k] = series[SLIDING, i + 1, k]
-            instants[i] = first_root(c, 0, n, float(phase[i]))
+            instants[i] = first_root_after(c, n, float(phase[i]), held)
         first = min(first, instants[i])
     return first
 
@@ -109,7 +143,28 @@ def slips_on(frame, model, sign, series, reach, state, h, ground, rise, i):
 
 
 @inner
-def search_stick(series, n, limit, room, touching, vanishing, c, signs, i):
+def first_root_after(c, n, sign, held):
+    """First root from the fraction ``held`` on; ``held`` itself where the polynomial is below zero there.
+
+    The coefficients are used up.
+    """
+    x = first_root(c, 0, n, sign)
+    if x >= held:
+        return x
+    # The polynomial of y in x = held + (1 - held) y.
+    for j in range(n):
+        for k in range(n - 1, j - 1, -1):
+            c[k] += held * c[k + 1]
+    power = 1.0
+    for k in range(n + 1):
+        c[k] *= power
+        power *= 1.0 - held
+    x = first_root(c, 0, n, sign)
+    return x if x > 1.0 else held + (1.0 - held) * x
+
+
+@inner
+def search_stick(series, n, limit, room, touching, gap, vanishing, held, c, signs, i):
     """Where |reaction| reaches the limit; its direction goes to signs[i]."""
     first = NO_ROOT
     for sign in (1, -1):
@@ -121,7 +176,8 @@ def search_stick(series, n, limit, room, touching, vanishing, c, signs, i):
         if touching == sign:
             for k in range(vanishing):
                 c[k] = 0.0
-        x = first_root(c, 0, n, 1.0)
+            c[0] += gap
+        x = first_root_after(c, n, 1.0, held)
         if x < first:
             first = x
             signs[i] = sign

@@ -41,7 +41,9 @@ from fdspec.kernels.frame.output import write_traces
 from fdspec.kernels.frame.peaks import PEAK_ROWS, raise_peaks
 from fdspec.kernels.frame.reset import (
     RELEASE,
+    SOON,
     TALLY_ROWS,
+    begin_free,
     begin_slip,
     returns_at_once,
     stay_sprung,
@@ -59,8 +61,11 @@ from fdspec.kernels.frame.taylor import (
     end_of_step,
     order_for,
     reaction_now,
+    relax,
 )
 from fdspec.kernels.types import (
+    ENERGY_NOT_CLOSED,
+    ENERGY_TOLERANCE,
     NON_FINITE_STATE,
     OK,
     TRANSITION_CAP,
@@ -162,30 +167,40 @@ def history(
         set_phase(frame, model, phase, i)
     stored = stored_energy(frame, dense_stiffness, state)
     transitions = 0
-    for i in range(size):
-        if kind[i] == NO_BRACE:
-            continue
-        reaction = reaction_now(frame, model, stiffness_lanes, damping_lanes, state, i)
-        if frame[SLIP_FORCE, i] == 0.0:
-            speed = state[SLIDING, i]
-            begin_slip(frame, kind, phase, fresh, state, tally, i, 1 if speed >= 0.0 else -1)
-            state[SLIDING, i] = speed
-            fresh[i] = 0
-        elif state[SLIDING, i] != 0.0:
-            phase[i] = 1 if state[SLIDING, i] > 0.0 else -1
-        elif abs(reaction) > frame[SLIP_FORCE, i]:
-            begin_slip(frame, kind, phase, fresh, state, tally, i, 1 if reaction > 0.0 else -1)
-            fresh[i] = min(fresh[i], 1)
-            changes = 2 if returns_at_once(frame, kind, phase, state, i) else 1
+    # Massless braces first: what they do at once is felt in the storeys below, and not the other way.
+    for turn in range(2):
+        for i in range(size):
+            if kind[i] == NO_BRACE or (kind[i] == MASSLESS) != (turn == 0):
+                continue
+            reaction = reaction_now(frame, model, stiffness_lanes, damping_lanes, state, i)
+            changes = 0
+            if frame[SLIP_FORCE, i] == 0.0:
+                if kind[i] == MASSLESS:
+                    begin_free(frame, phase, fresh, state, tally, i)
+                else:
+                    speed = state[SLIDING, i]
+                    begin_slip(frame, kind, phase, fresh, state, tally, i, 1 if speed >= 0.0 else -1, False)
+                    state[SLIDING, i] = speed
+                    fresh[i] = 0
+            elif state[SLIDING, i] != 0.0:
+                phase[i] = 1 if state[SLIDING, i] > 0.0 else -1
+            elif abs(reaction) > frame[SLIP_FORCE, i]:
+                begin_slip(frame, kind, phase, fresh, state, tally, i, 1 if reaction > 0.0 else -1, False)
+                # The reaction is beyond the limit, not at it: sliding accelerates, or a dashpot lets it begin
+                # with (|R| - F) / c_d.
+                fresh[i] = 1 if kind[i] == PLAIN else 0
+                changes = 2 if returns_at_once(frame, kind, phase, state, i) else 1
             for change in range(changes):
                 if change > 0:
-                    stay_sprung(frame, phase, fresh, touching, state, tally, i)
+                    stay_sprung(phase, fresh, touching, state, tally, i)
                 if transitions < times.size:
                     times[transitions] = 0.0
                     storeys[transitions] = i
                     phases[transitions] = phase[i]
                 transitions += 1
                 counts[i] += 1.0
+            if turn == 0:
+                set_phase(frame, model, phase, i)
     for i in range(size):
         set_phase(frame, model, phase, i)
     rate = fastest_rate(model, phase, held_rate)
@@ -193,6 +208,7 @@ def history(
     tracing = traces.shape[0] > 0
     status = OK
     work_in = 0.0
+    most_in = 0.0
     viscous = 0.0
     written = 0
     events = 0
@@ -205,6 +221,10 @@ def history(
             slope = (ground[step + 1] - a0) / dt
         tau = 0.0
         while True:
+            if massless:
+                relax(frame, model, kind, phase, fresh, state)
+                rate = fastest_rate(model, phase, held_rate)
+            soon = SOON * min(dt, 1.0 / rate)
             parts = max(1, math.ceil((dt - tau) * rate / radians - 1e-9))
             h = (dt - tau) / parts
             n = order_for(rate * h, extra)
@@ -223,11 +243,14 @@ def history(
                 fresh,
                 touching,
                 state,
+                tally,
                 series,
                 momentum,
                 reach,
                 n,
                 h,
+                step * dt + tau,
+                soon,
                 acceleration,
                 rise,
                 c,
@@ -266,6 +289,7 @@ def history(
                     written += 1
             if done > 0.0:
                 work_in += input_work(momentum, n, h, acceleration, rise, done)
+                most_in = max(most_in, abs(work_in))
                 if certify or tracing:
                     viscous += viscous_work(frame, dense_damping, damped, series, n, h, done, speeds)
                 end_of_step(series, n, done, state)
@@ -293,6 +317,7 @@ def history(
                 signs,
                 x,
                 step * dt + tau,
+                soon,
                 times,
                 storeys,
                 phases,
@@ -325,12 +350,17 @@ def history(
         by_storey[10, i] = work
     error = 0.0
     if certify:
-        scale = abs(work_in) + stored
+        # Net input may be zero, as over whole periods of a frame without damping; what the balance has to
+        # resolve is the most that was ever put in.
+        scale = max(most_in + stored, viscous + friction)
         if scale > 0.0:
             now = stored_energy(frame, dense_stiffness, state)
             error = abs(work_in + stored - now - viscous - friction) / scale
-    if status == OK and not math.isfinite(friction + viscous + work_in + error):
-        status = NON_FINITE_STATE
+    if status == OK:
+        if not math.isfinite(friction + viscous + work_in + error):
+            status = NON_FINITE_STATE
+        elif error > ENERGY_TOLERANCE:
+            status = ENERGY_NOT_CLOSED
     totals[0] = transitions
     totals[1] = friction
     totals[2] = viscous

@@ -56,7 +56,7 @@ FLOOR_SHARE = 7
 BRACE_SHARE = 8
 """m_d / (m_f + m_d) and its complement: the shares of P and B in the reaction."""
 SLIP_RATE = 9
-"""Bound on the rates that a slip of this storey adds, 1/s."""
+"""Bound on the rates that a slip of this storey adds, 1/s; of a massless brace, while they last."""
 COLUMNS = 10
 COLUMN_DASHPOTS = 11
 GROUND_SPRINGS = 12
@@ -178,17 +178,23 @@ def prepare(frame, model, held):
         model[GROUND_SPRINGS, i] = frame[GROUND_STIFFNESS, i]
         model[GROUND_DASHPOTS, i] = frame[GROUND_DAMPING, i]
         model[SLIP_RATE, i] = 0.0
-        stiffness = frame[BRACE_STIFFNESS, i]
-        damping = frame[BRACE_DAMPING, i]
         if brace > 0.0:
-            below = frame[FLOOR_MASS, i - 1] if i > 0 else math.inf
-            model[SLOWNESS, i] = math.sqrt(brace / stiffness)
-            share = math.sqrt(brace / below)
-            k = max(stiffness / brace * (1.0 + share), held[0] + stiffness / brace * share)
-            c = max(damping / brace * (1.0 + share), held[1] + damping / brace * share)
+            model[SLOWNESS, i] = math.sqrt(brace / frame[BRACE_STIFFNESS, i])
+            k, c = slip_norms(frame, held, i)
             model[SLIP_RATE, i] = rate_of(k, c)
-        elif damping > 0.0:
-            model[SLIP_RATE, i] = stiffness / damping
+
+
+@inner
+def slip_norms(frame, held, i):
+    """Bounds as ``held``, those of :func:`held_rates`, with the brace of storey i in motion; it has mass."""
+    brace = frame[BRACE_MASS, i]
+    stiffness = frame[BRACE_STIFFNESS, i]
+    damping = frame[BRACE_DAMPING, i]
+    below = frame[FLOOR_MASS, i - 1] if i > 0 else math.inf
+    share = math.sqrt(brace / below)
+    k = max(stiffness / brace * (1.0 + share), held[0] + stiffness / brace * share)
+    c = max(damping / brace * (1.0 + share), held[1] + damping / brace * share)
+    return k, c
 
 
 @inner

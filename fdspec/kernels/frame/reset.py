@@ -1,4 +1,24 @@
-"""What a storey of a frame does at a change of phase."""
+"""What a storey of a frame does at a change of phase.
+
+A massless brace has no equation of motion: the damper's force is the brace's at all times, s F_sl = k_d e
++ c_d e' while it slips, with e its stretch.  With a dashpot that is a first-order system.  Its sliding
+velocity, with g the storey's drift,
+
+    o' = g' - e' = (R* - s F_sl) / c_d,      R* = k_d e + c_d g',
+
+and the reaction R* that sticking would need are continuous, for e, g and the floors' velocities are.  So it
+slips where |R*| > F_st, at once with (|R*| - F_sl) / c_d, and it comes to rest where s R* has fallen to
+F_sl, which is never more than F_st: a massless brace always sticks when it stops.  Without a dashpot the
+brace springs to e = s F_sl / k_d as it gives way, which loses (F_st - F_sl)^2 / (2 k_d); its offset then
+follows the drift, and it sticks where the drift turns.
+
+The force in a massless brace jumps where it gives way with kinetic below static friction, and nowhere else.
+That jump reaches the floor below, and so the reaction of a damper there whose brace has mass.  It reaches
+no massless brace, whose reaction has no part of its neighbours' forces, and it is passed on no further,
+since springs and dashpots of a brace with mass follow displacements and velocities, which do not jump.  So
+what happens at one instant is settled by two rounds, in whatever order the storeys are taken: massless
+braces first, by the state alone, then those with mass, by what the first left.
+"""
 
 from __future__ import annotations
 
@@ -21,17 +41,30 @@ TRAVEL = 1
 """Distance slipped in the phases that are over, m."""
 RELEASE = 2
 """Energy that a massless brace lost to friction in snapping back, J."""
-TALLY_ROWS = 3
-"""Rows of the ``tally`` array (3, N)."""
+LAST = 3
+"""Time of the latest change of phase of a massless brace, s."""
+TURNS = 4
+"""How many of its changes have followed each other at what is one instant but for rounding."""
+TALLY_ROWS = 5
+"""Rows of the ``tally`` array (5, N)."""
+
+SOON = 0.01
+"""Share of a radian, or of a record step, within which a storey's changes may be one instant's."""
+FREE_TURNS = 6.0
+MOST_TURNS = 48.0
+"""Changes at one instant that no law makes, and those after which the next has to wait the longest."""
+
+JUMPED = -1
+"""``fresh`` of a storey that sticks and whose reaction has just jumped with the force in the brace above."""
 
 
 @inner
-def begin_slip(frame, kind, phase, fresh, state, tally, i, sign):
-    """Start slip from stick in this direction.
+def begin_slip(frame, kind, phase, fresh, state, tally, i, sign, stood):
+    """Start slip from stick in this direction; ``stood``: whether it has stood at the limit since it stuck.
 
-    With equal static and kinetic friction the sliding acceleration begins at zero as well.  A massless
-    brace follows at once: without a dashpot it springs back to where kinetic friction holds it, with
-    one its velocity does.
+    With equal static and kinetic friction the sliding acceleration begins at zero as well, unless the
+    reaction has jumped past the limit.  A massless brace follows at once: without a dashpot it springs back
+    to where kinetic friction holds it, with one its velocity does.
     """
     static = frame[SLIP_FORCE, i]
     kinetic = frame[KINETIC_SLIP_FORCE, i]
@@ -39,17 +72,58 @@ def begin_slip(frame, kind, phase, fresh, state, tally, i, sign):
     tally[ANCHOR, i] = state[OFFSET, i]
     state[SLIDING, i] = 0.0
     if kind[i] == PLAIN:
-        fresh[i] = 2 if static == kinetic else 1
+        fresh[i] = 2 if static == kinetic and fresh[i] != JUMPED else 1
     elif frame[BRACE_DAMPING, i] > 0.0:
-        fresh[i] = 1 if static == kinetic else 0
+        fresh[i] = 1
     else:
-        fresh[i] = 0
-        drift = state[DISPLACEMENT, i] - (state[DISPLACEMENT, i - 1] if i > 0 else 0.0)
-        stiffness = frame[BRACE_STIFFNESS, i]
-        before = drift - state[OFFSET, i]
-        after = sign * kinetic / stiffness
-        state[OFFSET, i] = drift - after
-        tally[RELEASE, i] += 0.5 * stiffness * (before - after) * (before - after)
+        drift_rate = state[VELOCITY, i] - (state[VELOCITY, i - 1] if i > 0 else 0.0)
+        fresh[i] = 1 if stood and static == kinetic and sign * drift_rate <= 0.0 else 0
+        spring_back(frame, state, tally, i, sign * kinetic / frame[BRACE_STIFFNESS, i])
+
+
+@inner
+def spring_back(frame, state, tally, i, after):
+    """Let a massless brace without a dashpot snap to the stretch ``after`` (m), and count what that loses."""
+    drift = state[DISPLACEMENT, i] - (state[DISPLACEMENT, i - 1] if i > 0 else 0.0)
+    before = drift - state[OFFSET, i]
+    state[OFFSET, i] = drift - after
+    tally[RELEASE, i] += 0.5 * frame[BRACE_STIFFNESS, i] * (before - after) * (before - after)
+
+
+@inner
+def begin_free(frame, phase, fresh, state, tally, i):
+    """Begin the motion of a massless brace without friction: which way it slides, for its distance alone.
+
+    Without a dashpot it springs to where it carries nothing, whichever way that is.
+    """
+    drift_rate = state[VELOCITY, i] - (state[VELOCITY, i - 1] if i > 0 else 0.0)
+    speed = drift_rate
+    before = state[DISPLACEMENT, i] - (state[DISPLACEMENT, i - 1] if i > 0 else 0.0) - state[OFFSET, i]
+    if frame[BRACE_DAMPING, i] > 0.0:
+        speed += frame[BRACE_STIFFNESS, i] / frame[BRACE_DAMPING, i] * before
+    else:
+        spring_back(frame, state, tally, i, 0.0)
+        tally[TRAVEL, i] += abs(before)
+    tally[ANCHOR, i] = state[OFFSET, i]
+    state[SLIDING, i] = speed
+    phase[i] = 1 if speed >= 0.0 else -1
+    fresh[i] = 0
+
+
+@inner
+def unsettle_below(kind, phase, fresh, touching, i):
+    """Tell the storey below that the force in the massless brace i has jumped.
+
+    What was known of the reaction there, that it stood at its limit, is known no more.
+    """
+    below = i - 1
+    if below < 0 or kind[below] != PLAIN:
+        return
+    if phase[below] == STICK:
+        touching[below] = 0
+        fresh[below] = JUMPED
+    elif fresh[below] > 1:
+        fresh[below] = 1
 
 
 @inner
@@ -60,12 +134,11 @@ def returns_at_once(frame, kind, phase, state, i):
 
 
 @inner
-def stay_sprung(frame, phase, fresh, touching, state, tally, i):
+def stay_sprung(phase, fresh, touching, state, tally, i):
     """Make such a storey stick where its brace sprang to."""
     close_travel(state, tally, i, phase[i])
-    if frame[SLIP_FORCE, i] == frame[KINETIC_SLIP_FORCE, i]:
-        touching[i] = phase[i]
-        fresh[i] = 1
+    touching[i] = phase[i]
+    fresh[i] = 1
     phase[i] = STICK
 
 
@@ -91,12 +164,37 @@ def end_slip(frame, kind, phase, fresh, touching, state, tally, i, held):
     fresh[i] = 0
     if after != STICK:
         fresh[i] = 1
+    elif kind[i] == MASSLESS:  # the reaction is exactly that of kinetic friction, its rate nought as well
+        touching[i] = sign
+        fresh[i] = 1 if frame[BRACE_DAMPING, i] > 0.0 else 2
     elif abs(held) == frame[SLIP_FORCE, i]:
         touching[i] = sign
         fresh[i] = 1
-        if kind[i] == MASSLESS and frame[BRACE_DAMPING, i] == 0.0:
-            fresh[i] = 2
     return True
+
+
+@inner
+def count_turn(tally, i, at, soon):
+    """Count a change of a massless brace at the time ``at`` if it follows one within ``soon`` (s)."""
+    if at - tally[LAST, i] > soon or at < tally[LAST, i]:
+        tally[TURNS, i] *= 0.5
+    else:
+        tally[TURNS, i] += 1.0
+    tally[LAST, i] = at
+
+
+@inner
+def patience(tally, i, soon):
+    """How long (s) after its latest change a massless brace is left in its phase.
+
+    No time, but where many changes follow each other at one instant.  There two phases differ by what
+    rounding makes of a force or velocity that is zero, and either is right.  Each further change then doubles
+    the time to the next, so that the motion gets away from the instant after a few dozen.
+    """
+    turns = tally[TURNS, i]
+    if turns <= FREE_TURNS:
+        return 0.0
+    return soon * 2.0 ** (min(turns, MOST_TURNS) - MOST_TURNS)
 
 
 @inner

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from fdspec.compiler.options import inlined
 from fdspec.kernels.frame.guard import SAME_INSTANT, search
-from fdspec.kernels.frame.model import MASSLESS, set_phase
-from fdspec.kernels.frame.reset import begin_slip, end_slip
+from fdspec.kernels.frame.model import KINETIC_SLIP_FORCE, MASSLESS, SLIP_FORCE, set_phase
+from fdspec.kernels.frame.reset import begin_slip, count_turn, end_slip, unsettle_below
 from fdspec.kernels.frame.taylor import expand, follow_drift, reaction_now
 from fdspec.kernels.types import STICK
 
@@ -24,11 +24,14 @@ def look_ahead(
     fresh,
     touching,
     state,
+    tally,
     series,
     momentum,
     reach,
     n,
     h,
+    at,
+    soon,
     acceleration,
     rise,
     c,
@@ -57,7 +60,7 @@ def look_ahead(
     if massless:
         for i in range(frame.shape[1]):
             if kind[i] == MASSLESS and phase[i] != STICK:
-                follow_drift(frame, state, fresh, phase, n, h, series, i)
+                follow_drift(frame, model, state, fresh, phase, n, h, series, i)
     return search(
         frame,
         model,
@@ -65,11 +68,14 @@ def look_ahead(
         phase,
         fresh,
         touching,
+        tally,
         series,
         reach,
         state,
         n,
         h,
+        at,
+        soon,
         acceleration,
         rise,
         c,
@@ -94,6 +100,7 @@ def change_phases(
     signs,
     x,
     at,
+    soon,
     times,
     storeys,
     phases,
@@ -102,28 +109,37 @@ def change_phases(
 ):
     """Make the changes of all storeys whose instant is the fraction x of the step.
 
-    at: time then, s.  times, storeys, phases: changes of phase, as far as they have room; counts (N,):
-    changes of each storey.  Returns how many storeys were looked at, and transitions with those made added.
+    Massless braces change first: what they do follows from the state alone, and the storeys below them need
+    to know it.  at: time then, s; soon as in `search`.  times, storeys, phases: changes of phase, as far as
+    they have room; counts (N,): changes of each storey.  Returns how many storeys were looked at, and
+    transitions with those made added.
     """
     events = 0
-    for i in range(frame.shape[1]):
-        if instants[i] > x + SAME_INSTANT:
-            continue
-        events += 1
-        changed = True
-        if phase[i] == STICK:
-            touching[i] = 0
-            begin_slip(frame, kind, phase, fresh, state, tally, i, signs[i])
-        else:
-            held = reaction_now(frame, model, stiffness_lanes, damping_lanes, state, i)
-            changed = end_slip(frame, kind, phase, fresh, touching, state, tally, i, held)
-        if changed:
-            if transitions < times.size:
-                times[transitions] = at
-                storeys[transitions] = i
-                phases[transitions] = phase[i]
-            transitions += 1
-            counts[i] += 1.0
+    for turn in range(2):
+        for i in range(frame.shape[1]):
+            if instants[i] > x + SAME_INSTANT or (kind[i] == MASSLESS) != (turn == 0):
+                continue
+            events += 1
+            changed = True
+            if phase[i] == STICK:
+                stood = touching[i] == signs[i]
+                touching[i] = 0
+                begin_slip(frame, kind, phase, fresh, state, tally, i, signs[i], stood)
+                if turn == 0 and frame[KINETIC_SLIP_FORCE, i] < frame[SLIP_FORCE, i]:
+                    unsettle_below(kind, phase, fresh, touching, i)
+            else:
+                held = reaction_now(frame, model, stiffness_lanes, damping_lanes, state, i)
+                changed = end_slip(frame, kind, phase, fresh, touching, state, tally, i, held)
+            if turn == 0:
+                count_turn(tally, i, at, soon)
+                set_phase(frame, model, phase, i)
+            if changed:
+                if transitions < times.size:
+                    times[transitions] = at
+                    storeys[transitions] = i
+                    phases[transitions] = phase[i]
+                transitions += 1
+                counts[i] += 1.0
     for i in range(frame.shape[1]):
         if instants[i] <= x + SAME_INSTANT:
             set_phase(frame, model, phase, i)

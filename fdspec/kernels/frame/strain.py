@@ -34,7 +34,7 @@ from fdspec.kernels.frame.model import (
     rate_of,
     set_phase,
 )
-from fdspec.kernels.frame.reset import TALLY_ROWS, begin_slip
+from fdspec.kernels.frame.reset import SOON, TALLY_ROWS, begin_slip
 from fdspec.kernels.frame.step import change_phases, look_ahead
 from fdspec.kernels.frame.taylor import (
     DISPLACEMENT,
@@ -44,6 +44,7 @@ from fdspec.kernels.frame.taylor import (
     TERMS,
     end_of_step,
     order_for,
+    relax,
 )
 from fdspec.kernels.mathematics.polynomial_roots import largest_magnitude
 from fdspec.kernels.mathematics.quadrature import NODES, WEIGHTS
@@ -159,7 +160,7 @@ def strain_of_history(
         kind[i] = kind_of(frame, i)
         massless = massless or kind[i] == MASSLESS
         if kind[i] != NO_BRACE and frame[SLIP_FORCE, i] == 0.0:
-            begin_slip(frame, kind, phase, fresh, state, tally, i, 1)
+            begin_slip(frame, kind, phase, fresh, state, tally, i, 1, False)
             fresh[i] = 0
         set_phase(frame, model, phase, i)
     rate = fastest_rate(model, phase, held_rate)
@@ -171,6 +172,10 @@ def strain_of_history(
         slope = (ground[step + 1] - ground[step]) / dt
         tau = 0.0
         while True:
+            if massless:
+                relax(frame, model, kind, phase, fresh, state)
+                rate = fastest_rate(model, phase, held_rate)
+            soon = SOON * min(dt, 1.0 / rate)
             parts = max(1, math.ceil((dt - tau) * rate / radians - 1e-9))
             h = (dt - tau) / parts
             n = order_for(rate * h, 0)
@@ -189,11 +194,14 @@ def strain_of_history(
                 fresh,
                 touching,
                 state,
+                tally,
                 series,
                 momentum,
                 reach,
                 n,
                 h,
+                step * dt + tau,
+                soon,
                 acceleration,
                 rise,
                 c,
@@ -228,7 +236,8 @@ def strain_of_history(
                 instants,
                 signs,
                 x,
-                tau,
+                step * dt + tau,
+                soon,
                 no_times,
                 none,
                 none,

@@ -46,9 +46,13 @@ from fdspec.kernels.frame.model import (
     HELD,
     KINETIC_SLIP_FORCE,
     MASS,
+    MASSLESS,
     SLIDING_COMPLIANCE,
+    SLIP_FORCE,
+    SLIP_RATE,
     SPRING,
 )
+from fdspec.kernels.types import STICK
 
 TERMS = 40
 """Room for coefficients: enough for steps of five radians."""
@@ -70,6 +74,9 @@ ACCELERATION_REACH = 1
 JERK_REACH = 2
 REACH_ROWS = 3
 """Rows of ``reach`` (3, lanes): sums over k >= 1 of |R_k| (N), |A_k| (m/s2), k |A_k| (m/s2)."""
+
+UNRESOLVED = 64.0 * 2.0**-53
+"""Share of the displacements below which the excess of a massless brace's stretch is rounding."""
 
 TRUNCATION = 1e-16
 """Size of the first term left out, relative to the first one."""
@@ -326,19 +333,51 @@ def measure(series, n, reach):
 
 
 @inner
-def follow_drift(frame, state, fresh, phase, n, h, series, i):
+def excess_of(frame, phase, state, i):
+    """What the stretch (m) of a slipping massless brace is beyond s F / k_d, and what of it rounding leaves.
+
+    The second is ample: the excess is a difference of displacements, which are sums of terms of a series.
+    """
+    below = state[DISPLACEMENT, i - 1] if i > 0 else 0.0
+    stretch = phase[i] * frame[KINETIC_SLIP_FORCE, i] / frame[BRACE_STIFFNESS, i]
+    size = abs(state[DISPLACEMENT, i]) + abs(below) + abs(state[OFFSET, i]) + abs(stretch)
+    return state[DISPLACEMENT, i] - below - state[OFFSET, i] - stretch, UNRESOLVED * size
+
+
+@inner
+def relax(frame, model, kind, phase, fresh, state):
+    """Set the rates that the slips of massless braces with dashpots add to the motion.
+
+    The excess of such a brace's stretch decays as exp(- k_d t / c_d) and pulls at nothing.  Once rounding
+    hides it, the brace is quasi-static, as one without a dashpot, and however fast the decay would be
+    it asks for no short steps.
+    """
+    for i in range(phase.size):
+        if kind[i] != MASSLESS or frame[BRACE_DAMPING, i] == 0.0:
+            continue
+        model[SLIP_RATE, i] = 0.0
+        if phase[i] != STICK:
+            excess, hidden = excess_of(frame, phase, state, i)
+            if abs(excess) > hidden:
+                model[SLIP_RATE, i] = frame[BRACE_STIFFNESS, i] / frame[BRACE_DAMPING, i]
+            elif fresh[i] > 0:
+                below = state[VELOCITY, i - 1] if i > 0 else 0.0
+                fresh[i] = 0 if phase[i] * (state[VELOCITY, i] - below) > 0.0 else 1
+
+
+@inner
+def follow_drift(frame, model, state, fresh, phase, n, h, series, i):
     """Series of the offset of a slipping massless brace: the drift less the brace's own stretch.
 
     The stretch is s F / k_d, towards which it relaxes at the rate k_d / c_d where there is a dashpot.
     """
     stiffness = frame[BRACE_STIFFNESS, i]
-    damping = frame[BRACE_DAMPING, i]
     stretch = phase[i] * frame[KINETIC_SLIP_FORCE, i] / stiffness
     excess = 0.0
     decay = 0.0
     rate = 0.0
-    if damping > 0.0:
-        rate = -stiffness / damping
+    if model[SLIP_RATE, i] > 0.0:
+        rate = -model[SLIP_RATE, i]
         decay = rate * h
         excess = series[DISPLACEMENT, i + 1, 0] - series[DISPLACEMENT, i, 0] - state[OFFSET, i] - stretch
     else:
@@ -348,9 +387,12 @@ def follow_drift(frame, state, fresh, phase, n, h, series, i):
             excess *= decay / k
             series[OFFSET, i + 1, k] = series[DISPLACEMENT, i + 1, k] - series[DISPLACEMENT, i, k] - excess
         series[SLIDING, i + 1, k] = series[VELOCITY, i + 1, k] - series[VELOCITY, i, k] - rate * excess
-    if fresh[i] > 0:
-        series[SLIDING, i + 1, 0] = 0.0
-        series[OFFSET, i + 1, 1] = 0.0
+    if fresh[i] > 0:  # it begins or turns here: its first velocity is known, and not from differences
+        gap = frame[SLIP_FORCE, i] - frame[KINETIC_SLIP_FORCE, i]
+        speed = -rate * phase[i] * gap / stiffness
+        series[SLIDING, i + 1, 0] = speed
+        if rate != 0.0:
+            series[OFFSET, i + 1, 1] = speed * h
 
 
 @inner
