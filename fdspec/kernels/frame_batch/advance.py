@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from fdspec.compiler.options import inner, wide
-from fdspec.kernels.frame_batch.eight import WIDTH, fma8, less8, load, splat, store
+from fdspec.kernels.frame_batch.eight import WIDTH, abs8, fma8, less8, load, max8, splat, store
 from fdspec.kernels.frame_batch.layout import (
     END,
     FRACTION,
@@ -18,6 +18,7 @@ from fdspec.kernels.frame_batch.layout import (
     LENGTH,
     LOOSE_MASS,
     MASS,
+    MOST_INPUT,
     RISE,
     SECOND,
     SLIDES,
@@ -111,4 +112,6 @@ def add_input(p, at, size, orders):
     moved = fma8(t, twice, momentum) * t
     swept = fma8(t, thrice, momentum * splat(0.5)) * t
     work = rise * swept - (ground + rise) * moved
-    store(p, INPUT * WIDTH, load(p, INPUT * WIDTH) + work)
+    work = load(p, INPUT * WIDTH) + work
+    store(p, INPUT * WIDTH, work)
+    store(p, MOST_INPUT * WIDTH, max8(abs8(work), load(p, MOST_INPUT * WIDTH)))

@@ -39,7 +39,7 @@ from fdspec.kernels.frame_batch.search import search
 from fdspec.kernels.frame.reset import TALLY_ROWS
 from fdspec.kernels.frame.guard import SAME_INSTANT
 from fdspec.kernels.frame.step import change_phases
-from fdspec.kernels.frame.history import COUNTS, NO_TIME
+from fdspec.kernels.frame.results import COUNTS, NO_TIME
 from fdspec.kernels.frame.taylor import TERMS, longest_phase
 from fdspec.kernels.types import NON_FINITE_STATE, OK, TRANSITION_CAP, TRANSITION_CAP_REACHED
 
@@ -105,7 +105,7 @@ def change(
     take_state(p, END, size, lane, state)
     events, changes = change_phases(
         frame, model, stiffness, damping, kind, phase, fresh, touching, state, tally, instants, signs, x, 0.0,
-        no_times, no_storeys, no_storeys, 0, counts,
+        0.0, no_times, no_storeys, no_storeys, 0, counts,
     )  # fmt: skip
     put_state(p, END, size, lane, state)
     for i in range(size):

@@ -22,6 +22,7 @@ from fdspec.kernels.frame_batch.layout import (
     LIMIT,
     LOOSE_MASS,
     MASS,
+    MOST_INPUT,
     OF_BRACE,
     OF_FLOOR,
     OMEGA,
@@ -42,7 +43,7 @@ from fdspec.kernels.frame_batch.layout import (
 from fdspec.kernels.frame.energy import stored_energy
 from fdspec.kernels.frame.reset import RELEASE, TALLY_ROWS, begin_slip, travel_so_far
 from fdspec.kernels.frame.taylor import DISPLACEMENT, OFFSET, VELOCITY
-from fdspec.kernels.types import NON_FINITE_STATE, OK, STICK
+from fdspec.kernels.types import ENERGY_NOT_CLOSED, ENERGY_TOLERANCE, NON_FINITE_STATE, OK, STICK
 
 
 @inner
@@ -86,7 +87,7 @@ def put_history(p, at, size, lane, frame, stiffness, damping, model, kind, phase
         fresh[i] = 0
         touching[i] = 0
         if kind[i] != NO_BRACE and frame[rows.SLIP_FORCE, i] == 0.0:
-            begin_slip(frame, kind, phase, fresh, state, tally, i, 1)
+            begin_slip(frame, kind, phase, fresh, state, tally, i, 1, False)
             fresh[i] = 0
         brace = frame[rows.BRACE_MASS, i]
         p[row(SPRING, i) + lane] = frame[rows.BRACE_STIFFNESS, i]
@@ -112,6 +113,7 @@ def put_history(p, at, size, lane, frame, stiffness, damping, model, kind, phase
     held_rate = rate_of(held[0], held[1])
     p[TAU * WIDTH + lane] = 0.0
     p[INPUT * WIDTH + lane] = 0.0
+    p[MOST_INPUT * WIDTH + lane] = 0.0
     p[VISCOUS * WIDTH + lane] = 0.0
     p[RATE * WIDTH + lane] = fastest_rate(model, phase, held_rate)
     return held_rate
@@ -164,11 +166,16 @@ def finish(p, at, size, lane, frame, stiffness, phase, state, tally, transitions
     work_in = p[INPUT * WIDTH + lane]
     viscous = p[VISCOUS * WIDTH + lane]
     error = 0.0
-    if certify and abs(work_in) > 0.0:
-        now = stored_energy(frame, stiffness, state)
-        error = abs(work_in - now - viscous - friction) / abs(work_in)
-    if status == OK and not math.isfinite(friction + viscous + work_in + error):
-        status = NON_FINITE_STATE
+    if certify:
+        scale = max(p[MOST_INPUT * WIDTH + lane], viscous + friction)
+        if scale > 0.0:
+            now = stored_energy(frame, stiffness, state)
+            error = abs(work_in - now - viscous - friction) / scale
+    if status == OK:
+        if not math.isfinite(friction + viscous + work_in + error):
+            status = NON_FINITE_STATE
+        elif error > ENERGY_TOLERANCE:
+            status = ENERGY_NOT_CLOSED
     totals[0] = transitions
     totals[1] = friction
     totals[2] = viscous

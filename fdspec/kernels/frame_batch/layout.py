@@ -14,10 +14,11 @@ from fdspec.kernels.mathematics.quadrature import NODES
 from fdspec.kernels.frame.taylor import TERMS
 
 # Rows of a history.
-LENGTH, ORDER, GROUND, RISE, FRACTION, TAU, RATE, INPUT, VISCOUS = range(9)
+LENGTH, ORDER, GROUND, RISE, FRACTION, TAU, RATE, INPUT, MOST_INPUT, VISCOUS = range(10)
 """Length of the step (s) and order of its series; ground acceleration at its start and its change over it,
-m/s2; part of the step that is taken; time since the record's sample, s; fastest rate, 1/s; energies, J."""
-HISTORY_ROWS: Final = 9
+m/s2; part of the step that is taken; time since the record's sample, s; fastest rate, 1/s; work of the ground, the
+largest it has been, and that into dashpots, J."""
+HISTORY_ROWS: Final = 10
 
 # Rows of a storey: what it is, and what its phase makes of it.
 (
