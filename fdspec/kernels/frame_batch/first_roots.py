@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from fdspec.compiler.options import inner, wide
+from fdspec.compiler.options import inlined, inner, wide
 from fdspec.kernels.frame_batch.eight import (
     ALL,
     WIDTH,
@@ -18,6 +18,7 @@ from fdspec.kernels.frame_batch.eight import (
     fma8,
     load,
     max8,
+    min8,
     splat,
     store,
     where_above,
@@ -26,20 +27,36 @@ from fdspec.kernels.frame_batch.eight import (
 from fdspec.kernels.mathematics.polynomial_roots import CLOSE, NEWTON_STEPS, NO_ROOT, TAIL
 
 QUARTER: Final = 0.25
+HUGE: Final = 1e300
 
 
-@inner
-def at_quarters(p, block, n, x):
-    """Value, slope and curvature at x of the polynomials of order n in a block."""
-    wide()
-    value = load(p, block + n * WIDTH)
-    slope = splat(0.0)
-    bend = splat(0.0)
-    for k in range(n - 1, -1, -1):
-        bend = fma8(bend, x, slope)
-        slope = fma8(slope, x, value)
-        value = fma8(value, x, load(p, block + k * WIDTH))
-    return value, slope, bend + bend
+@inlined
+def one_more(p, place, x, value, slope, bend):
+    """One step of Horner's rule for a polynomial, its slope and half its curvature at x."""
+    bend = fma8(bend, x, slope)
+    slope = fma8(slope, x, value)
+    return fma8(value, x, load(p, place)), slope, bend
+
+
+@inlined
+def judge(start, slope, bend, end, end_slope, end_bend, step, third, margin, inner_least):
+    """The lanes that pass a quarter without a root, and those that cross zero there just once.
+
+    start, end: values at both ends, with slopes and halves of curvatures.
+    """
+    nothing = splat(0.0)
+    positive = above(end, nothing)
+    first = fma8(slope, step, start)
+    last = fma8(end_slope, nothing - step, end)
+    clear = ~above(inner_least, first) & ~above(inner_least, last)
+    falls = above(nothing, max8(slope, end_slope) + third)
+    concave = above(nothing, max8(bend, end_bend) + margin)
+    convex = above(min8(bend, end_bend), margin)
+    rises = convex & ~above(nothing, slope)
+    convex_falls = convex & above(nothing, slope) & ~above(end_slope, nothing)
+    once = falls | concave | convex_falls
+    # What is no number is neither positive nor below zero.
+    return positive & (clear | once | rises), once & ~above(end, nothing) & above(splat(HUGE), abs8(end))
 
 
 @inner
@@ -49,58 +66,64 @@ def first_roots(p, block, n, lanes, result):
     block: place of their coefficients of the powers 0 to n.  Return the lanes that are left undecided.
     """
     wide()
-    third = splat(0.0)
-    fourth = splat(0.0)
-    for k in range(3, n + 1):
-        size = abs8(load(p, block + k * WIDTH)) * splat(float(k * (k - 1) * (k - 2)))
+    nothing = splat(0.0)
+    third = nothing
+    fourth = nothing
+    x_1 = splat(0.25)
+    x_2 = splat(0.5)
+    x_3 = splat(0.75)
+    x_4 = splat(1.0)
+    v_1 = load(p, block + n * WIDTH)
+    v_2 = v_1
+    v_3 = v_1
+    v_4 = v_1
+    s_1 = nothing
+    s_2 = nothing
+    s_3 = nothing
+    s_4 = nothing
+    b_1 = nothing
+    b_2 = nothing
+    b_3 = nothing
+    b_4 = nothing
+    for k in range(n, -1, -1):
+        place = block + k * WIDTH
+        size = abs8(load(p, place)) * splat(float(k * (k - 1) * (k - 2)))
         third = third + size
         fourth = fma8(size, splat(float(k - 3)), fourth)
+        if k < n:
+            v_1, s_1, b_1 = one_more(p, place, x_1, v_1, s_1, b_1)
+            v_2, s_2, b_2 = one_more(p, place, x_2, v_2, s_2, b_2)
+            v_3, s_3, b_3 = one_more(p, place, x_3, v_3, s_3, b_3)
+            v_4, s_4, b_4 = one_more(p, place, x_4, v_4, s_4, b_4)
     third = third * splat(0.125 * QUARTER * QUARTER)
-    margin = fourth * splat(0.125 * QUARTER * QUARTER)
-    inner_least = fourth * splat(TAIL * QUARTER * QUARTER * QUARTER * QUARTER)
+    margin = fourth * splat(0.0625 * QUARTER * QUARTER)
+    least = fourth * splat(TAIL * QUARTER * QUARTER * QUARTER * QUARTER)
     step = splat(QUARTER / 3.0)
-    nothing = splat(0.0)
-    start = load(p, block)
-    slope = load(p, block + WIDTH)
-    bend = splat(2.0) * load(p, block + 2 * WIDTH)
-    opened = lanes
-    crossed = 0
-    undecided = 0
-    left = nothing
-    above_left = splat(1.0)
-    below_right = splat(-1.0)
-    for quarter in range(4):
-        x = splat(QUARTER * (quarter + 1))
-        end, end_slope, end_bend = at_quarters(p, block, n, x)
-        positive = above(end, nothing)
-        first = fma8(slope, step, start)
-        last = fma8(end_slope, nothing - step, end)
-        clear = ~above(inner_least, first) & ~above(inner_least, last)
-        falls = above(nothing, max8(slope, end_slope) + third)
-        concave = above(nothing, max8(bend, end_bend) + margin)
-        convex = above(nothing, max8(nothing - bend, nothing - end_bend) + margin)
-        rises = convex & ~above(nothing, slope)
-        convex_falls = convex & above(nothing, slope) & ~above(end_slope, nothing)
-        known = falls | concave | convex_falls | rises
-        # What is no number is neither positive nor known, and is left to the scalar search.
-        passes = positive & (clear | known)
-        crosses = opened & ~positive & (falls | concave | convex_falls) & above(splat(1e300), abs8(end))
-        left = where_in(crosses, splat(QUARTER * quarter), left)
-        above_left = where_in(crosses, start, above_left)
-        below_right = where_in(crosses, end, below_right)
-        crossed |= crosses
-        undecided |= opened & ~passes & ~crosses
-        opened &= passes
-        if opened == 0:
-            break
-        start = end
-        slope = end_slope
-        bend = end_bend
-    store(p, result, splat(NO_ROOT))
+    v_0 = load(p, block)
+    s_0 = load(p, block + WIDTH)
+    b_0 = load(p, block + 2 * WIDTH)
+    pass_1, cross_1 = judge(v_0, s_0, b_0, v_1, s_1, b_1, step, third, margin, least)
+    pass_2, cross_2 = judge(v_1, s_1, b_1, v_2, s_2, b_2, step, third, margin, least)
+    pass_3, cross_3 = judge(v_2, s_2, b_2, v_3, s_3, b_3, step, third, margin, least)
+    pass_4, cross_4 = judge(v_3, s_3, b_3, v_4, s_4, b_4, step, third, margin, least)
+    # Each lane is decided by the first quarter that it does not pass.
+    cross_1 &= lanes
+    lanes_2 = lanes & pass_1
+    cross_2 &= lanes_2
+    lanes_3 = lanes_2 & pass_2
+    cross_3 &= lanes_3
+    lanes_4 = lanes_3 & pass_3
+    cross_4 &= lanes_4
+    crossed = cross_1 | cross_2 | cross_3 | cross_4
+    root = splat(NO_ROOT)
     if crossed != 0:
-        root = locate(p, block, n, crossed, left, left + splat(QUARTER), above_left, below_right)
-        store(p, result, where_in(crossed, root, splat(NO_ROOT)))
-    return undecided
+        left = where_in(cross_2, x_1, where_in(cross_3, x_2, where_in(cross_4, x_3, nothing)))
+        start = where_in(cross_2, v_1, where_in(cross_3, v_2, where_in(cross_4, v_3, v_0)))
+        end = where_in(cross_2, v_2, where_in(cross_3, v_3, where_in(cross_4, v_4, v_1)))
+        found = locate(p, block, n, crossed, left, left + splat(QUARTER), start, end)
+        root = where_in(crossed, found, root)
+    store(p, result, root)
+    return lanes & ~crossed & ~(lanes_4 & pass_4)
 
 
 @inner
@@ -132,7 +155,7 @@ def locate(p, block, n, lanes, a, b, height_a, height_b):
         a = where_above(height, nothing, x, a)
         b = where_above(height, nothing, b, x)
         step = x - height / slope
-        inside = ~above(a, step) & ~above(step, b) & (above(slope, nothing) | above(nothing, slope))
+        inside = ~above(a, step) & ~above(step, b) & above(splat(HUGE), abs8(step))
         step = where_in(inside, step, splat(0.5) * (a + b))
         moved = abs8(step - x)
         moves = above(abs8(height), nothing)

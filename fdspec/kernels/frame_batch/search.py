@@ -26,16 +26,27 @@ def gather(p, at, i, lane, slot, n, sign, limit, vanishing, slides, terms):
     """
     q = term(at, SECOND, i, 0) + lane
     to = at.searched + slot
+    h = p[LENGTH * WIDTH + lane]
+    start = sign * p[row(START + SLIDING, i) + lane] if slides else limit - sign * p[q]
+    if start < 0.0 and vanishing == 0:
+        return -1
+    if start > 0.0 and vanishing == 0:
+        p[to] = start
+        if slides:
+            for k in range(n):
+                p[to + (k + 1) * WIDTH] = p[q + 2 * k * WIDTH] * (sign * h * INVERSE[k + 1])
+            return n
+        for k in range(1, n):
+            p[to + k * WIDTH] = -sign * p[q + 2 * k * WIDTH]
+        return n - 1
+    terms[0] = start
     if slides:
-        h = p[LENGTH * WIDTH + lane]
-        terms[0] = sign * p[row(START + SLIDING, i) + lane]
         for k in range(n):
-            terms[k + 1] = sign * p[q + 2 * k * WIDTH] * (h * INVERSE[k + 1])
+            terms[k + 1] = p[q + 2 * k * WIDTH] * (sign * h * INVERSE[k + 1])
         n += 1
     else:
-        for k in range(n):
+        for k in range(1, n):
             terms[k] = -sign * p[q + 2 * k * WIDTH]
-        terms[0] += limit
     for k in range(vanishing):
         terms[k] = 0.0
     first = 0
