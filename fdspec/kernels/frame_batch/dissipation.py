@@ -1,10 +1,14 @@
 """Work into the dashpots of eight frames: quadrature of their power over what is taken of the steps.
 
-Floors move smoothly over a step of a few radians of their braces; where no brace has a dashpot, five nodes
-are enough.
+Six nodes integrate a floor's power to rounding over a step of 2.5 radians of the brace that shakes it, since
+that brace is the lighter one; where braces have dashpots too, twelve are taken.
 """
 
 from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
 
 from fdspec.compiler.options import inner, wide
 from fdspec.kernels.frame_batch.advance import ONCE
@@ -17,6 +21,7 @@ from fdspec.kernels.frame_batch.layout import (
     GROUND_DASHPOTS,
     INERTIA,
     LENGTH,
+    MOST_NODES,
     RISE,
     SECOND,
     SLIDES,
@@ -25,15 +30,22 @@ from fdspec.kernels.frame_batch.layout import (
     row,
     term,
 )
-from fdspec.kernels.mathematics.quadrature import FEW_NODES, FEW_WEIGHTS, NODES, WEIGHTS
 from fdspec.kernels.frame.taylor import SLIDING, VELOCITY
 
-FIVE = len(FEW_NODES)
+SIX: Final = 6
+
+_points, _weights = np.polynomial.legendre.leggauss(SIX)
+FEW_NODES: Final = 0.5 * (1.0 + _points)
+FEW_WEIGHTS: Final = 0.5 * _weights
+
+_points, _weights = np.polynomial.legendre.leggauss(MOST_NODES)
+NODES: Final = 0.5 * (1.0 + _points)
+WEIGHTS: Final = 0.5 * _weights
 
 
 @inner
 def floor_speeds(p, at, size, orders, nodes, first):
-    """Put the floors' velocities at five nodes, from ``first`` on, into the block ``speeds``."""
+    """Put the floors' velocities at six nodes, from ``first`` on, into the block ``speeds``."""
     wide()
     x = load(p, FRACTION * WIDTH)
     ground = splat(0.0) - load(p, GROUND * WIDTH)
@@ -45,7 +57,7 @@ def floor_speeds(p, at, size, orders, nodes, first):
 
 @inner
 def sliding_speeds(p, at, size, orders, nodes, first):
-    """Put the sliding velocities at five nodes into the block ``slides``."""
+    """Put the sliding velocities at six nodes into the block ``slides``."""
     wide()
     x = load(p, FRACTION * WIDTH)
     nothing = splat(0.0)
@@ -57,18 +69,20 @@ def sliding_speeds(p, at, size, orders, nodes, first):
 
 @inner
 def put_speeds(p, at, series, i, size, orders, nodes, first, x, ground, rise, h, speed, to):
-    """Integrate a storey's acceleration up to five nodes: its series, and ground + rise x beside it."""
+    """Integrate a storey's acceleration up to six nodes: its series, and ground + rise x beside it."""
     wide()
     a = x * splat(nodes[first])
     b = x * splat(nodes[first + 1])
     c = x * splat(nodes[first + 2])
     d = x * splat(nodes[first + 3])
     e = x * splat(nodes[first + 4])
+    f = x * splat(nodes[first + 5])
     at_a = splat(0.0)
     at_b = splat(0.0)
     at_c = splat(0.0)
     at_d = splat(0.0)
     at_e = splat(0.0)
+    at_f = splat(0.0)
     for k in range(orders - 1, -1, -1):
         rate = load(p, term(at, series, i, k)) * splat(ONCE[k])
         at_a = fma8(at_a, a, rate)
@@ -76,6 +90,7 @@ def put_speeds(p, at, series, i, size, orders, nodes, first, x, ground, rise, h,
         at_c = fma8(at_c, c, rate)
         at_d = fma8(at_d, d, rate)
         at_e = fma8(at_e, e, rate)
+        at_f = fma8(at_f, f, rate)
     place = to + (first * size + i) * WIDTH
     apart = size * WIDTH
     store(p, place, fma8(at_a + fma8(rise, a, ground), a * h, speed))
@@ -83,6 +98,7 @@ def put_speeds(p, at, series, i, size, orders, nodes, first, x, ground, rise, h,
     store(p, place + 2 * apart, fma8(at_c + fma8(rise, c, ground), c * h, speed))
     store(p, place + 3 * apart, fma8(at_d + fma8(rise, d, ground), d * h, speed))
     store(p, place + 4 * apart, fma8(at_e + fma8(rise, e, ground), e * h, speed))
+    store(p, place + 5 * apart, fma8(at_f + fma8(rise, f, ground), f * h, speed))
 
 
 @inner
@@ -129,7 +145,7 @@ def add_dissipation(p, at, size, orders, dense_damping, damped, grounded, loose)
     wide()
     total = splat(0.0)
     if loose:
-        for first in range(0, len(NODES), FIVE):
+        for first in range(0, len(NODES), SIX):
             floor_speeds(p, at, size, orders, NODES, first)
             sliding_speeds(p, at, size, orders, NODES, first)
         for node in range(len(NODES)):
@@ -137,7 +153,7 @@ def add_dissipation(p, at, size, orders, dense_damping, damped, grounded, loose)
             total = fma8(splat(WEIGHTS[node]), power, total)
     else:
         floor_speeds(p, at, size, orders, FEW_NODES, 0)
-        for node in range(FIVE):
+        for node in range(SIX):
             power = power_at(p, at, size, node, dense_damping, damped, grounded, loose)
             total = fma8(splat(FEW_WEIGHTS[node]), power, total)
     work = load(p, FRACTION * WIDTH) * load(p, LENGTH * WIDTH) * total

@@ -10,7 +10,6 @@ from typing import Final, NamedTuple
 
 from fdspec.compiler.options import inlined, inner
 from fdspec.kernels.frame_batch.eight import WIDTH
-from fdspec.kernels.mathematics.quadrature import NODES
 from fdspec.kernels.frame.taylor import TERMS
 
 # Rows of a history.
@@ -65,6 +64,9 @@ LAST, RING = 42, 43
 slipping brace swings about the floor below, m/s."""
 STOREY_ROWS: Final = 44
 
+MOST_NODES: Final = 12
+"""Nodes of the quadrature of losses."""
+
 INERTIA, SECOND = range(2)
 """The two series of a storey."""
 
@@ -89,8 +91,8 @@ def places(storeys, dense_stiffness, dense_damping):
     stiffness = (HISTORY_ROWS + STOREY_ROWS * storeys) * WIDTH
     damping = stiffness + dense_stiffness * dense_stiffness * WIDTH
     speeds = damping + dense_damping * dense_damping * WIDTH
-    slides = speeds + len(NODES) * storeys * WIDTH
-    series = slides + len(NODES) * storeys * WIDTH
+    slides = speeds + MOST_NODES * storeys * WIDTH
+    series = slides + MOST_NODES * storeys * WIDTH
     thrust = series + 2 * storeys * TERMS * WIDTH
     weights = thrust + TERMS * WIDTH
     searched = weights + 3 * TERMS * WIDTH
