@@ -15,6 +15,7 @@ from fdspec.kernels.frame_batch.layout import (
     INERTIA,
     INPUT,
     LAST,
+    LAST_SECOND,
     LENGTH,
     LOOSE_MASS,
     MASS,
@@ -57,12 +58,15 @@ def advance(p, at, size, orders):
         slide = splat(0.0)
         slip = splat(0.0)
         last = splat(0.0)
+        last_second = splat(0.0)
         for k in range(orders):
             once = load(p, at.weights + (3 * k + 1) * WIDTH)
             twice = load(p, at.weights + (3 * k + 2) * WIDTH)
             inertia = load(p, term(at, INERTIA, i, k))
-            last = fma8(inertia, load(p, at.weights + 3 * k * WIDTH), last)
+            here = load(p, at.weights + 3 * k * WIDTH)
+            last = fma8(inertia, here, last)
             second = load(p, term(at, SECOND, i, k))
+            last_second = fma8(second, here, last_second)
             speed = fma8(inertia, once, speed)
             place = fma8(inertia, twice, place)
             slide = fma8(second, once, slide)
@@ -73,6 +77,7 @@ def advance(p, at, size, orders):
         o = load(p, row(START + OFFSET, i))
         z = load(p, row(START + SLIDING, i))
         store(p, row(LAST, i), last)
+        store(p, row(LAST_SECOND, i), last_second)
         store(p, row(END + DISPLACEMENT, i), fma8(t, fma8(t, place, v), u))
         store(p, row(END + VELOCITY, i), fma8(t, speed, v))
         store(p, row(END + OFFSET, i), fma8(t, fma8(slides, slip, z), o))

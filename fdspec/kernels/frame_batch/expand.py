@@ -17,6 +17,7 @@ from __future__ import annotations
 from fdspec.compiler.options import inlined, inner, wide
 from fdspec.kernels.frame_batch.eight import WIDTH, abs8, fma8, less8, load, splat, store, where_above
 from fdspec.kernels.frame_batch.layout import (
+    BEND_REACH,
     COLUMN_DASHPOTS,
     COLUMNS,
     COMPLIANCE,
@@ -176,12 +177,15 @@ def measure(p, at, size, orders):
     for i in range(size):
         inertia = splat(0.0)
         jerk = splat(0.0)
+        bend = splat(0.0)
         second = splat(0.0)
         for k in range(1, orders):
             swing = abs8(load(p, term(at, INERTIA, i, k)))
             inertia = inertia + swing
             jerk = fma8(swing, splat(float(k)), jerk)
+            bend = fma8(swing, splat(float(k * (k - 1))), bend)
             second = second + abs8(load(p, term(at, SECOND, i, k)))
         store(p, row(REACH + INERTIA_REACH, i), inertia)
         store(p, row(REACH + JERK_REACH, i), jerk)
+        store(p, row(REACH + BEND_REACH, i), bend)
         store(p, row(REACH + SECOND_REACH, i), second)

@@ -54,15 +54,15 @@ taken of it, and coefficients of the power in hand."""
 PULL: Final = 32
 """What dense matrices ask for, N."""
 REACH: Final = 33
-INERTIA_REACH, JERK_REACH, SECOND_REACH = range(3)
-"""Sums over k >= 1 of |I_k|, k |I_k|, |Q_k|; see :mod:`fdspec.kernels.frame_batch.expand`."""
-PEAK: Final = 36
+INERTIA_REACH, JERK_REACH, BEND_REACH, SECOND_REACH = range(4)
+"""Sums over k >= 1 of |I_k|, k |I_k|, k (k - 1) |I_k|, |Q_k|; see :mod:`fdspec.kernels.frame_batch.expand`."""
+PEAK: Final = 37
 PEAKS: Final = 6
 """Peaks so far, in the order of `fdspec.kernels.frame.peaks`."""
-LAST, RING = 42, 43
-"""Absolute acceleration of the floor at the end of what is taken, m/s2; bound on the velocity with which a
-slipping brace swings about the floor below, m/s."""
-STOREY_ROWS: Final = 44
+LAST, LAST_SECOND, RING = 43, 44, 45
+"""I and Q at the end of what is taken; bound on the velocity with which a slipping brace swings about the
+floor below, m/s."""
+STOREY_ROWS: Final = 46
 
 MOST_NODES: Final = 12
 """Nodes of the quadrature of losses."""

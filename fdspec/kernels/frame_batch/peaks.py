@@ -9,6 +9,8 @@ from __future__ import annotations
 from fdspec.compiler.options import inlined, inner, wide
 from fdspec.kernels.frame_batch.eight import ALL, WIDTH, above, abs8, fma8, less8, load, max8, min8, splat, store
 from fdspec.kernels.frame_batch.layout import (
+    BEND_REACH,
+    DASHPOT,
     END,
     FRACTION,
     GROUND,
@@ -16,10 +18,12 @@ from fdspec.kernels.frame_batch.layout import (
     INERTIA_REACH,
     JERK_REACH,
     LAST,
+    LAST_SECOND,
     LENGTH,
     LOOSE_MASS,
     MASS,
     OMEGA,
+    OVER_BRACE,
     PEAK,
     REACH,
     RING,
@@ -57,7 +61,10 @@ def raise_peaks(p, at, size, lanes, orders, c):
     strongest = abs8(ground) + rise
     eighth = splat(0.125) * h
     shear = splat(0.0)
-    shear_reach = splat(0.0)
+    last_shear = splat(0.0)
+    bends = splat(0.0)
+    rings = splat(0.0)
+    steepens = splat(0.0)
     for i in range(size - 1, -1, -1):
         inertia = load(p, term(at, INERTIA, i, 0))
         last = load(p, row(LAST, i))
@@ -88,8 +95,9 @@ def raise_peaks(p, at, size, lanes, orders, c):
         omega = load(p, row(OMEGA, i))
 
         top = raised(p, PEAK_ACCELERATION, i, inertia, last)
-        most = min8(pull, fma8(splat(0.5), jerk, max8(abs8(inertia), abs8(last))))
-        turns = ALL & ~above(splat(2.0) * abs8(load(p, term(at, INERTIA, i, 1))), jerk)
+        bend = load(p, row(REACH + BEND_REACH, i))
+        most = min8(pull, fma8(splat(0.125), bend, max8(abs8(inertia), abs8(last))))
+        turns = ALL & ~above(abs8(last - inertia), splat(0.5) * bend)
         of_acceleration = lanes & turns & above(most, top)
 
         sway = eighth * (jerk + rise)
@@ -119,15 +127,23 @@ def raise_peaks(p, at, size, lanes, orders, c):
             turns |= ~sticks
         of_brace = lanes & turns & above(most, top)
 
-        # The storey shear carries the inertia of all masses above: that of floor and brace, less what
-        # the brace's acceleration falls short of the floor's.
+        # The storey shear carries the inertia of all masses above; a slipping brace's is that of the floor below
+        # it and of its swing about that, which does not go beyond its bound.
         mass = load(p, row(MASS, i))
         loose = load(p, row(LOOSE_MASS, i))
         shear = less8(fma8(mass, inertia, shear), loose, second)
-        of_ring = swing + below_swing(p, i, rise) + splat(2.0) * ring * omega
-        shear_reach = fma8(mass, swing, shear_reach) + loose * min8(second_reach, of_ring)
-        top = raised(p, PEAK_SHEAR, i, shear, shear)
-        of_shear = lanes & above(abs8(shear) + shear_reach, top)
+        last_shear = less8(fma8(mass, last, last_shear), loose, load(p, row(LAST_SECOND, i)))
+        bends = fma8(mass - loose, bend, bends)
+        if i > 0:
+            bends = fma8(loose, load(p, row(REACH + BEND_REACH, i - 1)), bends)
+        of_ring = splat(2.0) * loose * ring * omega
+        rings = rings + of_ring
+        rate = fma8(load(p, row(DASHPOT, i)), load(p, row(OVER_BRACE, i)), omega)
+        steepens = fma8(of_ring, rate * h, fma8(splat(2.0) * loose, below_jerk, steepens))
+        top = raised(p, PEAK_SHEAR, i, shear, last_shear)
+        most = fma8(splat(0.125), bends, max8(abs8(shear), abs8(last_shear)) + rings)
+        turns = ALL & ~above(abs8(last_shear - shear), fma8(splat(0.5), bends, steepens))
+        of_shear = lanes & turns & above(most, top)
         found = of_acceleration | of_velocity | of_displacement | of_drift | of_brace | of_shear
         lane = 0
         while found != 0:
@@ -176,12 +192,6 @@ def may_turn(start, end, sway):
     ahead = above(min8(start, end), sway)
     back = above(splat(0.0) - max8(start, end), sway)
     return ALL & ~(ahead | back)
-
-
-@inlined
-def below_swing(p, i, rise):
-    """How far the acceleration of the floor below may go from that at the start."""
-    return load(p, row(REACH + INERTIA_REACH, i - 1)) if i > 0 else rise
 
 
 @inner
