@@ -1,72 +1,79 @@
 """Exact seismic response of buildings with friction dampers.
 
-The names below load on first use, so that `import fdspec` and `fdspec --help` start at once.
+The names below load on first use, so that `import fdspec` and `fdspec --help` start at once.  So do the
+packages: `fdspec.figures`, `fdspec.measures`, `fdspec.signals` and so on need no import of their own.
 """
 
 from typing import TYPE_CHECKING
 
+from fdspec.on_demand import submodules
+
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
-    from fdspec.choice.distribution import optimise
-    from fdspec.choice.pretension import best_pretension
-    from fdspec.choice.recommendation import choose
-    from fdspec.model.building import Building
-    from fdspec.model.damping import DampingMatrix, ModalDamping, RayleighDamping
-    from fdspec.model.motion import GroundMotion
-    from fdspec.records import load_record, read_record
-    from fdspec.runs.simulate import simulate
-    from fdspec.runs.study import Study
-    from fdspec.runs.sweep import sweep
-    from fdspec.runs.sweep_buildings import sweep_buildings
-    from fdspec.store.export import export
-    from fdspec.store.netcdf import open, save  # noqa: A004
+    from fdspec.choice.distribution import optimise as optimise
+    from fdspec.choice.pretension import best_pretension as best_pretension
+    from fdspec.choice.recommendation import choose as choose
+    from fdspec.errors import ClusterError as ClusterError
+    from fdspec.errors import DiskError as DiskError
+    from fdspec.errors import FdspecError as FdspecError
+    from fdspec.errors import IntegrationError as IntegrationError
+    from fdspec.errors import InvalidInput as InvalidInput
+    from fdspec.errors import RecordError as RecordError
+    from fdspec.errors import StoreError as StoreError
+    from fdspec.errors import StudyError as StudyError
+    from fdspec.model.building import Building as Building
+    from fdspec.model.damping import DampingMatrix as DampingMatrix
+    from fdspec.model.damping import ModalDamping as ModalDamping
+    from fdspec.model.damping import RayleighDamping as RayleighDamping
+    from fdspec.model.link import Link as Link
+    from fdspec.model.link import TensionBrace as TensionBrace
+    from fdspec.model.motion import GroundMotion as GroundMotion
+    from fdspec.records import load_record as load_record
+    from fdspec.records import read_record as read_record
+    from fdspec.runs.simulate import simulate as simulate
+    from fdspec.runs.study import Study as Study
+    from fdspec.runs.sweep import sweep as sweep
+    from fdspec.runs.sweep_buildings import sweep_buildings as sweep_buildings
+    from fdspec.store.export import export as export
+    from fdspec.store.netcdf import open as open  # noqa: A004
+    from fdspec.store.netcdf import save as save
 
-__all__ = [
-    "Building",
-    "DampingMatrix",
-    "GroundMotion",
-    "ModalDamping",
-    "RayleighDamping",
-    "Study",
-    "__version__",
-    "best_pretension",
-    "choose",
-    "export",
-    "load_record",
-    "open",
-    "optimise",
-    "read_record",
-    "save",
-    "simulate",
-    "sweep",
-    "sweep_buildings",
-]
-
-_HOME = {
-    "Building": "model.building",
-    "DampingMatrix": "model.damping",
-    "GroundMotion": "model.motion",
-    "ModalDamping": "model.damping",
-    "RayleighDamping": "model.damping",
-    "Study": "runs.study",
-    "best_pretension": "choice",
-    "choose": "choice",
-    "export": "store",
-    "load_record": "records",
-    "open": "store",
-    "optimise": "choice",
-    "read_record": "records",
-    "save": "store",
-    "simulate": "runs.simulate",
-    "sweep": "runs.sweep",
-    "sweep_buildings": "runs.sweep_buildings",
+_NAMES = {
+    "choice": ("best_pretension", "choose", "optimise"),
+    "errors": (
+        "ClusterError",
+        "DiskError",
+        "FdspecError",
+        "IntegrationError",
+        "InvalidInput",
+        "RecordError",
+        "StoreError",
+        "StudyError",
+    ),
+    "model.building": ("Building",),
+    "model.damping": ("DampingMatrix", "ModalDamping", "RayleighDamping"),
+    "model.link": ("Link", "TensionBrace"),
+    "model.motion": ("GroundMotion",),
+    "records": ("load_record", "read_record"),
+    "runs.simulate": ("simulate",),
+    "runs.study": ("Study",),
+    "runs.sweep": ("sweep",),
+    "runs.sweep_buildings": ("sweep_buildings",),
+    "store": ("export", "open", "save"),
 }
+"""Module -> its names that are the package's own; the imports above tell type checkers the same."""
+
+_HOME = {name: module for module, names in _NAMES.items() for name in names}
+
+__all__ = ["__version__", *_HOME]  # noqa: PLE0604 (strings, all of them)
+
+_submodule = submodules(__name__)
 
 
 def __getattr__(name: str) -> object:
     if name not in _HOME:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        return _submodule(name)
     from importlib import import_module
 
     value: object = getattr(import_module(f"{__name__}.{_HOME[name]}"), name)

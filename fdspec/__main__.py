@@ -1,8 +1,6 @@
 """`python -m fdspec` is the command `fdspec`."""
 
-import sys
-
-from fdspec.cli import main
+from fdspec.cli import run
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run()

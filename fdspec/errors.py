@@ -29,5 +29,13 @@ class DiskError(StoreError):
     """A disk that gave out at work: full, read-only, gone."""
 
 
+class BusyError(DiskError):
+    """A file or store that another process is writing."""
+
+
+class DamagedError(StoreError):
+    """A cube that is there, and is not what was written."""
+
+
 class ClusterError(FdspecError, RuntimeError):
     """A cluster that cannot be reached, or whose workers fail."""

@@ -76,9 +76,13 @@ STATUSES: Final = MappingProxyType(
         2: "non_finite_state",
         3: "iteration_not_converged",
         4: "energy_not_closed",
+        5: "collapsed",
     }
 )
 """Status code -> meaning, as the kernels return them."""
+
+NOT_COMPUTED: Final = -1
+"""Status of a cell that no sweep has come to yet."""
 
 
 def motion_variables(dims: tuple[str, ...]) -> tuple[Variable, ...]:
@@ -113,14 +117,36 @@ def response_variables(grid: tuple[str, ...], storey: tuple[str, ...] = ()) -> t
         Variable("peak_velocity", each, "m/s", "peak velocity of the floor relative to the ground"),
         Variable("peak_base_shear", grid, "N", "peak shear force on the ground, frame and brace together"),
         Variable(
-            "residual_displacement", each, "m", "final displacement of the floor relative to the ground"
+            "residual_displacement",
+            each,
+            "m",
+            "displacement of the floor relative to the ground at the record's end",
         ),
         Variable("slip_travel", each, "m", "total distance slipped in the damper"),
         Variable("transitions", grid, "1", f"number of changes of phase of {dampers}", "int64"),
         Variable("dissipated_energy", grid, "J", f"energy dissipated by friction in {dampers}"),
         Variable("input_energy", grid, "J", "energy put in by the ground motion, in the ground's frame"),
-        Variable("energy_error", grid, "1", "error of the energy balance relative to the input energy"),
+        Variable("energy_error", grid, "1", "error of the energy balance relative to the energy in play"),
         Variable("status", grid, "", "how the integration ended", "int8", _flags(STATUSES)),
+    )
+
+
+def demand_variables(each: tuple[str, ...]) -> tuple[Variable, ...]:
+    """Return what only buildings with devices have of each storey."""
+    return (
+        Variable("peak_slip", each, "m", "largest slip of the damper from where it was fastened"),
+        Variable("residual_slip", each, "m", "final slip offset of the damper"),
+        Variable("peak_brace_force", each, "N", "peak force in the brace"),
+        Variable("peak_column_shear", each, "N", "peak shear force of the columns, without P-delta"),
+        Variable("peak_column_deformation", each, "m", "peak drift of the columns that can yield"),
+        Variable("plastic_drift", each, "m", "final plastic drift of the columns"),
+        Variable("ductility", each, "1", "peak drift over yield drift of the columns"),
+        Variable("column_energy", each, "J", "energy dissipated by yielding of the columns"),
+        Variable("column_events", each, "1", "number of times the columns yielded or unloaded", "int64"),
+        Variable(
+            "slot_events", each, "1", "number of contacts and releases at the ends of the slot", "int64"
+        ),
+        Variable("peak_drift_ratio", each, "1", "peak drift over the height of the storey"),
     )
 
 
@@ -156,6 +182,7 @@ CUBE: Final[Registry] = registry_of(
         Variable("kinetic_slip_force", ("pretension",), "N", "friction force of the damper while it slips"),
     ),
     response_variables(STUDY_DIMS),
+    demand_variables(STUDY_DIMS),
     (
         Variable(
             "elastic_acceleration",
@@ -241,12 +268,15 @@ BUILDING_CUBE: Final[Registry] = registry_of(
             "peak absolute acceleration of the floor with dampers that never slip",
         ),
     ),
+    demand_variables(_EACH_STOREY),
 )
 """The variables of a sweep over buildings, dims (record, building, stiffness_scale, slip_scale, storey)."""
 
 _OVER_TIME: Final = ("time",)
 _EACH: Final = ("time", "storey")
 _STOREY: Final = ("storey",)
+_LINK: Final = ("link",)
+_EACH_LINK: Final = ("time", "link")
 _TRANSITION: Final = ("transition",)
 
 HISTORY: Final[Registry] = registry_of(
@@ -275,6 +305,9 @@ HISTORY: Final[Registry] = registry_of(
         Variable(
             "input_energy", _OVER_TIME, "J", "energy put in by the ground motion, in the ground's frame"
         ),
+        Variable(
+            "end_state", ("state",), "1", "state of the engine at the end, for a history that goes on from it"
+        ),
         Variable("transition_time", _TRANSITION, "s", "instant of the change of phase"),
         Variable("transition_storey", _TRANSITION, "1", "storey of the change of phase", "int64"),
         Variable("transition_phase", _TRANSITION, "", "phase after the change", "int8", _flags(PHASES)),
@@ -285,7 +318,10 @@ HISTORY: Final[Registry] = registry_of(
         Variable("peak_storey_shear", _STOREY, "N", "peak shear force of frame and brace together"),
         Variable("peak_base_shear", (), "N", "peak shear force on the ground, frame and brace together"),
         Variable(
-            "residual_displacement", _STOREY, "m", "final displacement of the floor relative to the ground"
+            "residual_displacement",
+            _STOREY,
+            "m",
+            "displacement of the floor relative to the ground at the history's end",
         ),
         Variable(
             "residual_drift", _STOREY, "m", "final displacement of the floor relative to the floor below"
@@ -293,11 +329,30 @@ HISTORY: Final[Registry] = registry_of(
         Variable("storey_transitions", _STOREY, "1", "number of changes of phase of the damper", "int64"),
         Variable("transitions", (), "1", "number of changes of phase of all dampers", "int64"),
         Variable("dissipated_energy", (), "J", "energy dissipated by friction in all dampers, in total"),
-        Variable("energy_error", (), "1", "error of the energy balance relative to the input energy"),
+        Variable("energy_error", (), "1", "error of the energy balance relative to the energy in play"),
         Variable("status", (), "", "how the integration ended", "int8", _flags(STATUSES)),
     ),
+    demand_variables(_STOREY),
+    (
+        Variable("column_shear", _EACH, "N", "shear force of the columns, without P-delta"),
+        Variable("plastic_deformation", _EACH, "m", "plastic drift of the columns so far"),
+        Variable("bearing_energy", _OVER_TIME, "J", "elastic energy in the ends of all slots"),
+        Variable("gravity_energy", _OVER_TIME, "J", "work done by gravity on the leaning frame"),
+        Variable("yielding_energy", _OVER_TIME, "J", "energy dissipated by yielding of all columns"),
+        Variable("links_energy", _OVER_TIME, "J", "energy dissipated in all links"),
+        Variable("link", _LINK, "", "name of the link", TEXT),
+        Variable("link_slip", _EACH_LINK, "m", "slip offset of the link, of a one-sided brace its slack"),
+        Variable("link_force", _EACH_LINK, "N", "force in the brace of the link"),
+        Variable("link_phase", _EACH_LINK, "", "phase of the link", "int8", _flags(PHASES)),
+        Variable("peak_link_slip", _LINK, "m", "largest slip of the link from where it was fastened"),
+        Variable("residual_link_slip", _LINK, "m", "final slip offset of the link"),
+        Variable("peak_link_force", _LINK, "N", "peak force in the brace of the link"),
+        Variable("link_energy", _LINK, "J", "energy dissipated in the link"),
+        Variable("link_events", _LINK, "1", "number of changes of phase of the link", "int64"),
+        Variable("link_contacts", _LINK, "1", "number of contacts and releases in the link", "int64"),
+    ),
 )
-"""The variables of one simulated history, dims time, storey and transition."""
+"""The variables of one simulated history, dims time, storey, transition and, where there are any, link."""
 
 
 def describe(dataset: xr.Dataset, registry: Registry) -> xr.Dataset:

@@ -20,13 +20,17 @@
 
 # %%
 import pandas as pd
-from IPython.display import Markdown, display
 
 import fdspec
 from fdspec.figures import acceleration_caption, plot_acceleration
 from fdspec.measures import best_damper, study_claims
 from fdspec.measures.claims import CLAIMS, verdict_of_claim
 from fdspec.report.study_figures import RECORD_FIGURES
+
+try:
+    from IPython.display import Markdown, display
+except ModuleNotFoundError:  # run by plain Python: tables and text are printed
+    Markdown, display = str, print
 
 pd.set_option("display.max_colwidth", None)
 

@@ -83,6 +83,8 @@ def _filled(
         if values is None:
             values = _values(variable, tuple(sizes[dim] for dim in variable.dims), random)
         about = name in axes or variable.dims in {("record",), ("pretension",)} or variable.dtype == TEXT
+        if about and variable.dtype == "float64":
+            values = np.abs(values)  # no coordinate of a cube or a history is negative
         (coords if about else data)[name] = (variable.dims, values)
     return describe(xr.Dataset(data, coords, _ATTRIBUTES), registry)
 

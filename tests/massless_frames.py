@@ -29,9 +29,10 @@ def draw(
     *,
     storeys: tuple[int, ...] = STOREYS,
     shortest_period: float = 0.03,
+    weakest_dashpot: float = 1e-5,
     all_massless: bool = False,
 ) -> Drawn:
-    """Draw one; forces from nearly nothing to never, dashpots from 1e-5 to half of critical, and none."""
+    """Draw one; forces from nearly nothing to never, dashpots from weak to half of critical, and none."""
     rng = np.random.default_rng([77, seed])
     n = int(rng.choice(storeys))
     mass = rng.uniform(10e3, 150e3, n)
@@ -43,7 +44,7 @@ def draw(
     force, kinetic = _forces(rng, mass)
     dashpot = np.zeros(n)
     damped = rng.random(n) < rng.choice([0.0, 0.5, 1.0])
-    share = np.exp(rng.uniform(math.log(1e-5), math.log(0.5), n))
+    share = np.exp(rng.uniform(math.log(weakest_dashpot), math.log(0.5), n))
     dashpot[damped] = (2.0 * np.sqrt(brace * mass) * share)[damped]
     brace_mass = np.zeros(n)
     if rng.random() < 0.3 and not all_massless:

@@ -17,6 +17,7 @@ from fdspec.measures.indices import Weights, weights_of
 from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
 from fdspec.runs.cube import assemble
+from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.progress import progress as progress_bar
 
 FloatArray = NDArray[np.float64]
@@ -44,7 +45,7 @@ def optimise(
     generations: int = 30,
     seed: int = 0,
     workers: int | None = None,
-    progress: bool = False,
+    progress: Shown = False,
 ) -> xr.Dataset:
     """Find the slip forces that lower a performance index of a building most, over an ensemble of records.
 
@@ -70,8 +71,8 @@ def optimise(
         Of that search.  The same seed gives the same bits, whatever the number of workers.
     workers : int, optional
         Threads; one a core unless given.
-    progress : bool
-        Show a bar on stderr where it is a terminal.
+    progress : bool or callable
+        Show a bar on stderr where it is a terminal or a notebook's; or call this with (done, total).
 
     Returns
     -------

@@ -20,7 +20,9 @@ from fdspec.measures.indices import Weights, needs_of, weights_of
 from fdspec.model.building import Building
 from fdspec.model.grid import Grid
 from fdspec.model.motion import GroundMotion
+from fdspec.runs.bounds import SWEEP_HOURS, refuse_long
 from fdspec.runs.cube import assemble, named
+from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.progress import progress as progress_bar
 from fdspec.scheduling.threads import fan_out, plan
 
@@ -58,8 +60,15 @@ def best_pretension(
     kinetic_friction_coefficient: float | None = None,
     normal_force_factor: float = 1.0,
     brace_damping_ratio: float = 0.0,
+    storey_height: float | None = None,
+    yield_shear: float | None = None,
+    hardening_ratio: float = 0.0,
+    gravity_load: float | None = None,
+    slot_length: float | None = None,
+    slot_stiffness: float | None = None,
+    recentring_stiffness: float | None = None,
     workers: int | None = None,
-    progress: bool = False,
+    progress: Shown = False,
 ) -> xr.Dataset:
     """Find the pretension that lowers a performance index most, by computing histories where it may be.
 
@@ -81,12 +90,13 @@ def best_pretension(
     band : float
         Share above the least index that counts as nearly as good.
     floor_mass, brace_mass, damping_ratio, friction_coefficient, kinetic_friction_coefficient, \
-    normal_force_factor, brace_damping_ratio : float
+    normal_force_factor, brace_damping_ratio, storey_height, yield_shear, hardening_ratio, gravity_load, \
+    slot_length, slot_stiffness, recentring_stiffness : float
         As for `fdspec.sweep`.
     workers : int, optional
         Threads; one a core unless given.  No result depends on it.
-    progress : bool
-        Show a bar on stderr where it is a terminal.
+    progress : bool or callable
+        Show a bar on stderr where it is a terminal or a notebook's; or call this with (done, total).
 
     Returns
     -------
@@ -121,6 +131,13 @@ def best_pretension(
         kinetic_friction_coefficient=kinetic_friction_coefficient,
         normal_force_factor=normal_force_factor,
         brace_damping_ratio=brace_damping_ratio,
+        storey_height=storey_height,
+        yield_shear=yield_shear,
+        hardening_ratio=hardening_ratio,
+        gravity_load=gravity_load,
+        slot_length=slot_length,
+        slot_stiffness=slot_stiffness,
+        recentring_stiffness=recentring_stiffness,
     )
     if grid.friction_coefficient == 0.0:
         raise InvalidInput(
@@ -156,7 +173,7 @@ def best_pretension(
         "stretch": np.arange(1, variables["bands"].shape[-2] + 1),
         "bound": ["start", "end"],
     }
-    parameters = {name: getattr(grid, name) for name in grid.__dataclass_fields__ if name != "pretension"}
+    parameters = {name: value for name, value in grid.parameters.items() if name != "pretension"}
     return assemble(
         variables,
         axes,
@@ -187,6 +204,7 @@ def _bench(
         brace_mass=grid.brace_mass,
         damping_ratio=grid.damping_ratio,
         brace_damping_ratio=grid.brace_damping_ratio,
+        **grid.devices,
     )
     return Bench(building, motions, index, statistic, workers)
 
@@ -212,11 +230,12 @@ def _of_records(
     index: str | Weights,
     band: float,
     workers: int | None,
-    progress: bool,
+    progress: Shown,
 ) -> NDArray[np.object_]:
     """Search each column under each record by itself: Found (records, columns)."""
     n_sr, _, n_t = grid.shape
     seconds = [motion.n * n_sr * n_t * SEARCH_SECONDS_PER_SAMPLE for motion in motions]
+    refuse_long(sum(seconds), SWEEP_HOURS, f"a search for {n_sr * n_t:.4g} frames")
     tasks = plan(n_sr * n_t, seconds, None, "columns")
     parts = fan_out(
         partial(_search_columns, grid, index, band),

@@ -20,6 +20,7 @@ from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
 from fdspec.runs.cube import assemble
 from fdspec.runs.simulate import simulate
+from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.progress import progress as progress_bar
 
 FloatArray = NDArray[np.float64]
@@ -59,7 +60,7 @@ def choose(
     stiffness_scale: Sequence[float] = STIFFNESS_SCALE,
     seed: int = 0,
     workers: int | None = None,
-    progress: bool = False,
+    progress: Shown = False,
 ) -> xr.Dataset:
     """Recommend a pretension for one building and its records, and tell what it gains and may lose.
 
@@ -89,8 +90,8 @@ def choose(
         Of the search for a free distribution.
     workers : int, optional
         Threads; one a core unless given.
-    progress : bool
-        Show a bar on stderr where it is a terminal.
+    progress : bool or callable
+        Show a bar on stderr where it is a terminal or a notebook's; or call this with (done, total).
 
     Returns
     -------
@@ -227,15 +228,9 @@ def _searched(bench: Bench, shape: FloatArray, band: float) -> tuple[Scan, Float
 
 def _with_braces(building: Building, scale: float) -> Building:
     """The building with braces of another stiffness, whose dashpots keep their damping ratio."""
-    return Building(
-        building.floor_mass,
-        building.storey_stiffness,
-        building.brace_mass,
-        scale * building.brace_stiffness,
-        building.slip_force,
-        building.kinetic_slip_force,
-        building.damping,
-        np.sqrt(scale) * building.brace_damping,
+    return building.with_changes(
+        brace_stiffness=scale * building.brace_stiffness,
+        brace_damping=np.sqrt(scale) * building.brace_damping,
     )
 
 

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import click
 
-from fdspec.cli.table import grouped
+from fdspec.cli.echo import echo
+from fdspec.cli.table import BAD, GOOD, grouped, styled
 from fdspec.errors import FdspecError
 
 WORDS = {True: "ok", False: "FAILED", None: "-"}
+
+COLOURS = {True: GOOD, False: BAD, None: None}
 
 
 @click.command("check")
@@ -25,7 +28,8 @@ def check_cube(cube: str, everything: bool) -> None:
 
     failed = []
     for finding in check(cube):
-        click.echo(f"{WORDS[finding.passed]:6s}  {finding.what:9s}  {finding.told}")
+        word = styled(f"{WORDS[finding.passed]:6s}", COLOURS[finding.passed])
+        echo(f"{word}  {finding.what:9s}  {finding.told}")
         if finding.passed is False:
             failed.append(finding.what)
         if finding.what == "statuses" and not finding.passed:
@@ -33,8 +37,8 @@ def check_cube(cube: str, everything: bool) -> None:
                 number = 0
                 for number, cell in enumerate(failed_cells(opened), 1):
                     if everything or number <= LISTED:
-                        click.echo(f"        {cell}")
+                        echo(f"        {cell}")
             if not everything and number > LISTED:
-                click.echo(f"        and {grouped(number - LISTED)} more; --all lists them")
+                echo(f"        and {grouped(number - LISTED)} more; --all lists them")
     if failed:
         raise FdspecError(f"{cube}: {', '.join(failed)} failed")

@@ -12,6 +12,11 @@ COMMANDS = {
     ),
     "simulate": ("fdspec.cli.simulate:simulate", "Compute the history of one frame under one record."),
     "choose": ("fdspec.cli.choose:choose", "Recommend a pretension, with its gain and its bounds."),
+    "spectra": ("fdspec.cli.spectra:spectra", "Compute elastic and inelastic response spectra of records."),
+    "fragility": (
+        "fdspec.cli.fragility:fragility",
+        "Fit the probability that a demand exceeds its limit, and its annual rate.",
+    ),
     "records": ("fdspec.cli.records:records", "List, show, check, convert and draw ground motions."),
     "figures": ("fdspec.cli.figures:figures", "Draw the study's figures."),
     "claims": ("fdspec.cli.claims:claims", "Put the study's conclusions to a cube."),

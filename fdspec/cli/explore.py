@@ -8,7 +8,9 @@ from pathlib import Path
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.errors import InvalidInput
+from fdspec.stopping import Stopped
 
 
 @click.command()
@@ -38,6 +40,7 @@ def explore(cube: str, records: tuple[str, ...], host: str, port: int, no_browse
     says otherwise. `fdspec export CUBE.nc --html` writes a page that needs no server.
     """
     from fdspec import store
+    from fdspec.store.suitable import require_cube
 
     try:
         from fdspec.explore import Content, Rerun, serve
@@ -48,13 +51,14 @@ def explore(cube: str, records: tuple[str, ...], host: str, port: int, no_browse
 
     files = read_given(records)
     opened = store.open(cube, lazily=True)
+    require_cube(opened, cube, "pages")
     content = Content(opened, Path(cube).name)
     rerun = Rerun(opened, files, Path(cube).parent)
     if not is_loopback(host):
-        click.echo(f"fdspec: warning: whoever reaches {host} can read this cube and run histories", err=True)
+        echo(f"fdspec: warning: whoever reaches {host} can read this cube and run histories", err=True)
 
     def ready(address: str) -> None:
-        click.echo(f"{address}  (Ctrl-C ends)")
+        echo(f"{address}  (Ctrl-C ends)")
         sys.stdout.flush()
         if not no_browser and _has_browser():
             import webbrowser
@@ -63,8 +67,10 @@ def explore(cube: str, records: tuple[str, ...], host: str, port: int, no_browse
 
     try:
         serve(content, rerun, host=host, port=port, ready=ready)
+    except Stopped:
+        raise
     except KeyboardInterrupt:  # the way to end it
-        click.echo()
+        echo()
 
 
 def needs_extra(error: ModuleNotFoundError) -> str:

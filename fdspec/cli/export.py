@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.output import force_option, free
 from fdspec.errors import InvalidInput
 
@@ -27,11 +28,15 @@ def export(cube: str, output: str | None, page: bool, record: str | None, force:
     """Write one record of a cube for other programs, or a cube as a page.
 
     FILE.nc holds it over stiffness ratio, pretension and period, for ParaView, CDO and others that take three
-    axes. FILE.csv has a row for each cell, below lines with # that tell units and origin. FILE.html shows
+    axes. FILE.csv has a row for each cell, below lines with # that tell units and origin; of a history, a row
+    for each time, and FILE-transitions.csv one for each change of phase. FILE.html shows
     maps, surfaces and the best pretension in any browser, without a server; histories need `fdspec explore`.
     """
     from fdspec import store
+    from fdspec.store.history_csv import CSV_SUFFIXES, transitions_file
+    from fdspec.store.suitable import require_sound
 
+    beside: list[Path] = []
     if output is not None and Path(output).suffix.lower() in PAGES:
         page = True
     if page:
@@ -41,12 +46,17 @@ def export(cube: str, output: str | None, page: bool, record: str | None, force:
         raise click.UsageError("Give -o FILE.nc or -o FILE.csv, or --html.")
     else:
         path = free(output, force=force, suffixes=(".nc", ".csv", *PAGES))
-        store.export(store.open(cube), path, record=record)
-    click.echo(f"{path}")
+        opened = store.open(cube)
+        require_sound(opened, cube)
+        if path.suffix.lower() in CSV_SUFFIXES and "transition" in opened.dims:
+            beside = [free(transitions_file(path), force=force, suffixes=CSV_SUFFIXES)]
+        store.export(opened, path, record=record)
+    echo("\n".join(map(str, [path, *beside])))
 
 
 def _write_page(cube: str, path: Path, record: str | None) -> None:
     from fdspec import store
+    from fdspec.store.suitable import require_cube
 
     try:
         from fdspec.explore.content import Content
@@ -54,6 +64,7 @@ def _write_page(cube: str, path: Path, record: str | None) -> None:
     except ModuleNotFoundError as error:
         raise InvalidInput(f"a page needs {error.name}: pip install 'fdspec[explore]'") from None
     opened = store.open(cube)
+    require_cube(opened, cube, "pages")
     if record is not None and "record" in opened.dims:
         names = [str(name) for name in opened["record"].values]
         if record not in names:

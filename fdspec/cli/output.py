@@ -29,7 +29,7 @@ def free(path: str | Path, *, force: bool, suffixes: tuple[str, ...] | None = No
     from fdspec.store import check_writable
 
     path = Path(path)
-    if path.is_file() and not force:
+    if is_there(path) and not force:
         raise StoreError(f"{path} exists already; name another with -o, or replace it with --force")
     if suffixes is None:
         check_writable(path)
@@ -40,13 +40,22 @@ def free(path: str | Path, *, force: bool, suffixes: tuple[str, ...] | None = No
     return path
 
 
+def is_there(path: Path) -> bool:
+    """Whether there is such a file; a name that no file can have is none."""
+    try:
+        return path.is_file()
+    except OSError:
+        return False
+
+
 def made_folder(path: str | Path) -> Path:
     """Return a folder for results, made if absent."""
     folder = Path(path)
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise StoreError(f"cannot make the folder {folder}: {error.strerror}") from error
+        told = "there is a file of that name" if isinstance(error, FileExistsError) else error.strerror
+        raise StoreError(f"cannot make the folder {folder}: {told}") from error
     return folder
 
 

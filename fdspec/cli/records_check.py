@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.table import counted, table
 from fdspec.errors import FdspecError
 
@@ -50,7 +51,7 @@ def check_records(folder: str, link: bool, as_json: bool) -> None:
         check = check_folder(folder, on_file=lambda _: done(1))
     new = link_found(check) if link else {}
     report = _as_json if as_json else _as_text
-    click.echo(report(folder, check, links()))
+    echo(report(folder, check, links()))
     if link and not new:
         raise FdspecError(f"{folder} has none of the study's records for certain: nothing was linked")
 

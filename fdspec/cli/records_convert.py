@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.output import force_option, free
 from fdspec.cli.record_options import file_options, named_record
 
@@ -96,7 +97,7 @@ def convert_record(
     if pga_g is not None:
         motion = motion.scaled_to_pga(pga_g * G)
     write_record(motion, path)
-    click.echo(_written(motion, str(path)))
+    echo(_written(motion, str(path)))
 
 
 def _written(motion: GroundMotion, path: str) -> str:

@@ -6,6 +6,7 @@ from typing import Final
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.output import force_option, free, made_folder, save_picture
 from fdspec.cli.record_options import file_options, named_records
 
@@ -65,4 +66,4 @@ def draw_records(
     pictures = plot_histories(motions, note=note), plot_spectra(spectra, note=note)
     for picture, path in zip(pictures, paths, strict=True):
         save_picture(picture, path)
-    click.echo("\n".join(map(str, paths)))
+    echo("\n".join(map(str, paths)))

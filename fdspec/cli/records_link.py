@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.record_options import file_options
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ def link_record(name: str, file: str, units: str | None, dt: float | None, chann
     from fdspec.records.check import link_file
 
     match = link_file(name, file, channel=channel, units=units, dt=dt)
-    click.echo(f"{match.name} is {match.path} from now on: {match.reason}")
+    echo(f"{match.name} is {match.path} from now on: {match.reason}")
 
 
 @click.command("unlink")
@@ -52,9 +53,9 @@ def unlink_records(names: tuple[str, ...], as_json: bool) -> None:
         gone = []  # a damaged file of links goes as a whole
     remove_links(tuple(chosen) if names else None)
     if as_json:
-        click.echo(json.dumps({"unlinked": gone, "links_file": str(links_file())}, indent=2))
+        echo(json.dumps({"unlinked": gone, "links_file": str(links_file())}, indent=2))
     else:
-        click.echo(f"unlinked: {', '.join(gone) or 'nothing'}; the stand-ins are loaded")
+        echo(f"unlinked: {', '.join(gone) or 'nothing'}; the stand-ins are loaded")
 
 
 def linked_lines(known: Mapping[str, Link]) -> list[str]:

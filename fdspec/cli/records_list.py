@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.table import table
 
 if TYPE_CHECKING:
@@ -40,10 +41,10 @@ def list_records(as_json: bool) -> None:
             }
             for entry in catalogue()
         ]
-        click.echo(json.dumps(content, indent=2, default=str))
+        echo(json.dumps(content, indent=2, default=str))
         return
     rows = [(*_of_study(entry), *_loaded(entry, known.get(entry.name))) for entry in catalogue()]
-    click.echo("\n".join([table(HEAD, rows, left=LEFT), *linked_lines(known)]))
+    echo("\n".join([table(HEAD, rows, left=LEFT), *linked_lines(known)]))
 
 
 def _of_study(entry: CatalogueEntry) -> tuple[str, ...]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.output import PICTURES, force_option, free, save_picture
 from fdspec.cli.record_options import file_options, named_record
 
@@ -76,7 +77,7 @@ def show_record(
     if picture is not None:
         _draw(motion, picture)
         about["figure"] = str(picture)
-    click.echo(json.dumps(about, indent=2) if as_json else _lines(about))
+    echo(json.dumps(about, indent=2) if as_json else _lines(about))
 
 
 def _catalogued(entry: CatalogueEntry) -> dict[str, object]:

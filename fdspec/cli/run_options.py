@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Final, ParamSpec, TypeVar
 
 import click
 
-from fdspec.errors import ClusterError, DiskError, FdspecError
+from fdspec.cli.echo import echo
+from fdspec.errors import BusyError, ClusterError, DiskError, FdspecError
+from fdspec.printable import printable
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -51,13 +53,13 @@ def run_options(command: Callable[P, R]) -> Callable[P, R]:
     return command
 
 
-def store_of(output: Path, *, resumable: bool | None, expected: float) -> Path | None:
-    """Return the store that the sweep goes through, if any; expected: seconds that it will take."""
+def store_of(output: Path, *, resumable: bool | None, expected: Callable[[], float]) -> Path | None:
+    """Return the store that the sweep goes through, if any; expected: gives the seconds that it will take."""
     if output.suffix == STORE_SUFFIX:
         return output
     store = output.with_suffix(".unfinished.zarr")
     if resumable is None:
-        resumable = store.exists() or expected > LONG
+        resumable = store.exists() or expected() > LONG
     return store if resumable else None
 
 
@@ -77,6 +79,13 @@ def client_of(workers: int | None, scheduler: str | None) -> Iterator[Client | N
             yield client
 
 
+class _OneLine(logging.Formatter):
+    """What a file says of itself stays text also in a log that somebody prints."""
+
+    def format(self, record: logging.LogRecord) -> str:
+        return printable(super().format(record))
+
+
 @contextmanager
 def logged(path: str | None) -> Iterator[None]:
     """Append to a file what fdspec, and the cluster where it is worth a warning, have to say."""
@@ -87,7 +96,7 @@ def logged(path: str | None) -> Iterator[None]:
         handler = logging.FileHandler(path, encoding="utf-8")
     except OSError as error:
         raise DiskError(f"cannot write {path}: {error.strerror}") from error
-    handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)-7s %(name)s: %(message)s"))
+    handler.setFormatter(_OneLine("%(asctime)s %(levelname)-7s %(name)s: %(message)s"))
     ours, theirs = logging.getLogger("fdspec"), logging.getLogger("distributed")
     before = ours.level
     ours.setLevel(logging.INFO)
@@ -110,9 +119,9 @@ def kept(store: Path | None) -> Iterator[None]:
     """When the work stops early, say where what is finished is kept."""
     try:
         yield
+    except BusyError:
+        raise  # another's work, not ours
     except (ClusterError, DiskError, KeyboardInterrupt):
         if store is not None and store.exists():
-            click.echo(
-                f"fdspec: {store} keeps what is finished; the same command goes on from there", err=True
-            )
+            echo(f"fdspec: {store} keeps what is finished; the same command goes on from there", err=True)
         raise

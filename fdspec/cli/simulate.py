@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.output import PICTURES, force_option, free, save_picture
 from fdspec.cli.record_options import file_options, named_record
 
@@ -120,8 +121,8 @@ def simulate(
         from fdspec.figures import plot_history
 
         save_picture(plot_history(history), paths[1])
-    click.echo(_results(history))
-    click.echo("\n".join(map(str, paths)))
+    echo(_results(history))
+    echo("\n".join(map(str, paths)))
 
 
 def _results(history: xr.Dataset) -> str:

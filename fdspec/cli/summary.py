@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fdspec.cli.table import counted, grouped, seconds, size, table
+from fdspec.cli.table import counted, filled, grouped, seconds, size, table
 from fdspec.measures import best_damper
 from fdspec.units import G
 
@@ -49,12 +49,12 @@ def _records_table(cube: xr.Dataset) -> str:
     rows = [[cells[0] for _, cells in columns] for columns in tables]
     explained = ["min, max: smallest and largest peak absolute acceleration of the floor."]
     if "elastic_acceleration" in cube:
-        explained += [
-            "Best damper for periods in a band: pretension (kN), stiffness ratio (SR), and peak acceleration",
-            "as share of the frame's without brace, averaged over the band; the lowest on the grid.",
-        ]
+        explained.append(
+            "Best damper for periods in a band: pretension (kN), stiffness ratio (SR), and peak acceleration "
+            "as share of the frame's without brace, averaged over the band; the lowest on the grid."
+        )
     head = [name for name, _ in tables[0]]
-    return "\n".join([table(head, rows, left=("record",)), "", *explained])
+    return "\n".join([table(head, rows, left=("record",)), "", *map(filled, explained)])
 
 
 def _columns(cube: xr.Dataset) -> list[tuple[str, list[str]]]:

@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 import time
 import warnings
+from contextlib import nullcontext
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from fdspec.cli.echo import echo
 from fdspec.cli.held import holds
-from fdspec.cli.output import force_option, free
+from fdspec.cli.output import force_option, free, is_there
 from fdspec.cli.record_options import file_options, named_records
 from fdspec.cli.run_options import STORE_SUFFIX, client_of, kept, logged, run_options, store_of
 from fdspec.cli.table import grouped, seconds, size
+from fdspec.errors import BusyError
+from fdspec.locks import locked
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -82,10 +86,8 @@ def sweep(
     \b
         fdspec sweep --print-study > mine.toml
     """
-    from fdspec.model.grid import GRID_FIELDS
     from fdspec.runs.study import Study
-    from fdspec.runs.sweep import estimate
-    from fdspec.runs.sweep import sweep as compute
+    from fdspec.store import check_writable
 
     started = time.perf_counter()
     study = Study() if study_file is None else Study.read(study_file)
@@ -98,23 +100,56 @@ def sweep(
         study, scaled=study.scaled and not raw, certify=study.certify and not no_certify
     )
     if print_study:
-        click.echo(study.to_toml(), nl=False)
+        echo(study.to_toml(), nl=False)
         return
     if sum(one is not None for one in (threads, workers, scheduler)) > 1:
         raise click.UsageError("--threads, --workers and --scheduler exclude each other")
     path = Path(output or ("study.nc" if study_file is None else f"{Path(study_file).stem}.nc"))
-    if path.is_file() and not force and holds(path, study, study.motions()):
-        click.echo(f"{path} holds this study already: nothing to compute; --force computes it again")
+    if is_there(path) and not force and holds(path, study, study.motions()):
+        echo(f"{path} holds this study already: nothing to compute; --force computes it again")
         return
     if path.suffix != STORE_SUFFIX:
         free(path, force=force)
+    elif not path.is_dir():
+        check_writable(path, suffixes=(STORE_SUFFIX,))
     if dry_run:
-        click.echo(_plan(study, path))
+        echo(_plan(study, path))
         return
+    with locked(path):
+        if is_there(path) and not force and holds(path, study, study.motions()):
+            echo(f"{path} holds this study already: another run has just written it")
+            return
+        if path.suffix != STORE_SUFFIX:
+            free(path, force=force)
+        _run(study, path, started, threads, workers, scheduler, resumable, restart, log, force)
+
+
+def _run(
+    study: Study,
+    path: Path,
+    started: float,
+    threads: int | None,
+    workers: int | None,
+    scheduler: str | None,
+    resumable: bool | None,
+    restart: bool,
+    log: str | None,
+    force: bool,
+) -> None:
+    """Compute and write; nobody else writes there meanwhile."""
+    from fdspec.model.grid import GRID_FIELDS
+    from fdspec.runs.sweep import measured
+    from fdspec.runs.sweep import sweep as compute
+
     motions = study.motions()
-    expected = estimate(motions, study.grid, certify=study.certify)
+    expected = partial(measured, motions, study.grid, study.certify)
     store = store_of(path, resumable=resumable, expected=expected)
-    with logged(log), kept(store), client_of(workers, scheduler) as client:
+    with (
+        logged(log),
+        kept(store),
+        nullcontext() if store is None else locked(store),
+        client_of(workers, scheduler) as client,
+    ):
         cube = compute(
             motions,
             **{name: getattr(study.grid, name) for name in GRID_FIELDS},
@@ -138,35 +173,36 @@ def _finish(cube: xr.Dataset, path: Path, store: Path | None, force: bool, start
         save(cube, path, overwrite=force)
     elif store != path:
         to_netcdf(store, path, overwrite=force)
-    told, failed = statuses(cube)
-    click.echo(summary(cube, path, time.perf_counter() - started))
-    click.echo(told)
+    with cube:
+        told, failed = statuses(cube)
+        echo(summary(cube, path, time.perf_counter() - started))
+        echo(told)
     if failed:
         warnings.warn(f"{failed} histories did not end well; their cells are listed above", stacklevel=1)
     if store is not None and store != path:
-        remove(store)
+        try:
+            remove(store)
+        except BusyError:
+            warnings.warn(f"{store} is being read and was kept; remove it when it is not", stacklevel=1)
 
 
 def _plan(study: Study, path: Path) -> str:
     """Say what a run would do."""
-    import numpy as np
-
+    from fdspec.runs.bounds import seconds_of_sweep
     from fdspec.runs.cost import measured
-    from fdspec.runs.sweep import OUTPUTS
+    from fdspec.runs.sweep import bytes_of, refuse_endless, usual_outputs
     from fdspec.scheduling.threads import cores
-    from fdspec.variables import CUBE
 
     motions = study.motions()
+    outputs = study.outputs or usual_outputs(study.grid)
+    rough = sum(seconds_of_sweep(study.grid, motions, study.certify))
+    store = store_of(path, resumable=None, expected=lambda: rough / cores())
+    refuse_endless(motions, study.grid, outputs, rough, store)
     histories = len(motions) * study.grid.size
     cost = measured(study.grid, motions, study.certify)
     total, count = cost.of_sweep(study.grid, motions), cores()
     n_sr, n_f, n_t = study.grid.shape
     samples = sum(motion.n for motion in motions)
-    lengths = {"record": len(motions), "stiffness_ratio": n_sr, "pretension": n_f, "period": n_t}
-    bytes_of = {
-        name: math.prod(lengths[dim] for dim in CUBE[name].dims) * np.dtype(CUBE[name].dtype).itemsize
-        for name in study.outputs or OUTPUTS
-    }
     return "\n".join(
         (
             f"records           {', '.join(motion.name for motion in motions)} ({grouped(samples)} samples)",
@@ -177,7 +213,7 @@ def _plan(study: Study, path: Path) -> str:
             f"measured cost     {1e6 * total / histories:.3g} us of core time a history",
             f"transitions       {cost.transitions_per_sample * samples / len(motions):.0f} a history",
             f"expected time     {seconds(total)} of core time, {seconds(total / count)} on {count} cores",
-            f"expected size     at most {size(sum(bytes_of.values()))}",
+            f"expected size     at most {size(sum(bytes_of(motions, study.grid, outputs).values()))}",
             f"would write       {path}",
         )
     )

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Final, Self
 
 import click
 
-from fdspec.cli.table import counted, seconds, table
+from fdspec.cli.echo import echo, status
+from fdspec.cli.table import BAD, GOOD, counted, seconds, table
 from fdspec.errors import FdspecError
 
 if TYPE_CHECKING:
@@ -39,32 +40,46 @@ def verify(full: bool, only: tuple[str, ...], form: str | None) -> None:
 
     began = perf_counter()
     with _Telling() as tell:
-        rows = run(only or None, full=full, on_row=tell)
+        rows = run(only or None, full=full, on_family=tell.waits, on_row=tell)
     elapsed = perf_counter() - began
     failed = [row for row in rows if not row.passed]
     if form == "json":
-        click.echo(_as_json(rows, elapsed))
+        echo(_as_json(rows, elapsed))
     else:
-        click.echo(_as_markdown(rows) if form == "markdown" else table(HEAD, map(_cells, rows), left=LEFT))
+        echo(
+            _as_markdown(rows)
+            if form == "markdown"
+            else table(HEAD, map(_cells, rows), left=LEFT, colours={"pass": GOOD, "FAIL": BAD})
+        )
         said = f"{len(failed)} failed" if failed else "all passed"
-        click.echo(f"\n{counted(len(rows), 'row')}, {said}, in {seconds(elapsed)}")
+        echo(f"\n{counted(len(rows), 'row')}, {said}, in {seconds(elapsed)}")
     if failed:
         raise FdspecError(f"{counted(len(failed), 'row')} of {len(rows)} failed; first: {failed[0].case}")
 
 
 class _Telling:
-    """Say on a terminal's stderr which case was the last, and take it back at the end."""
+    """Say on a terminal's stderr what is waited for and which case was the last; take it back at the end."""
+
+    family = ""
 
     def __enter__(self) -> Self:
         return self
 
+    def waits(self, family: str) -> None:
+        """Say which family of cases is being computed."""
+        self.family = family
+        self._say("")
+
     def __call__(self, row: Row) -> None:
-        if sys.stderr.isatty():
-            click.echo(f"\r\033[K{row.case:.100}", err=True, nl=False)
+        self._say(f", after {row.case}")
 
     def __exit__(self, *_: object) -> None:
         if sys.stderr.isatty():
-            click.echo("\r\033[K", err=True, nl=False)
+            status("")
+
+    def _say(self, more: str) -> None:
+        if sys.stderr.isatty():
+            status(f"{f'computing {self.family}{more}':.100}")
 
 
 def _cells(row: Row) -> list[str]:

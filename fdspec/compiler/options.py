@@ -19,23 +19,27 @@ fused          a product and a sum in one instruction, where a formula says so b
                fuse would give a history other bits beside neighbours than alone.
 cache          entries only: what they call is compiled into them.  numba knows an entry to be stale
                when its own file has changed, not when a callee's has, so the cache folder is named
-               after the source of all kernels.  One process compiles, others wait (cache.py).
+               after the source of all kernels.  One process compiles, others wait, and nothing is read that
+               others may have written or that is damaged (cache.py).
 """
 
 from __future__ import annotations
 
 import hashlib
 import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Final, TypeVar
 
+import llvmlite
 import numba
+import numpy as np
 from llvmlite.binding import get_host_cpu_features, get_host_cpu_name
 from numba import config, types
 from numba.extending import intrinsic
 
-from fdspec.compiler.cache import cache_folder, compiling
+from fdspec.compiler.cache import cache_folder, compiling, tell
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -62,7 +66,11 @@ def source_key() -> str:
     return digest.hexdigest()[:16]
 
 
-CACHE = cache_folder(source_key(), os.environ.get("FDSPEC_CACHE_DIR") or config.CACHE_DIR)
+CACHE = (
+    None
+    if config.DISABLE_JIT
+    else cache_folder(source_key(), os.environ.get("FDSPEC_CACHE_DIR") or config.CACHE_DIR)
+)
 """Where compiled kernels are kept: ``FDSPEC_CACHE_DIR`` wins, then numba's own ``NUMBA_CACHE_DIR``."""
 
 
@@ -135,12 +143,16 @@ def entry(signature: Any) -> Callable[[Function], Function]:
     """Compile a function that Python calls, for one signature, through the cache."""
 
     def decorate(function: Function) -> Function:
+        if CACHE is None:
+            compiled: Function = numba.njit(signature, **OPTIONS)(function)
+            return compiled
         previous = config.CACHE_DIR
-        config.CACHE_DIR = str(CACHE) if CACHE else ""
         try:
-            with compiling(None if config.DISABLE_JIT else CACHE, _identity(function)):
-                compiled: Function = numba.njit(signature, cache=CACHE is not None, **OPTIONS)(function)
-        except OSError:  # the folder is full, or gone since it was found
+            with compiling(CACHE, _identity(function)) as folder:
+                config.CACHE_DIR = str(folder)
+                compiled = numba.njit(signature, cache=True, **OPTIONS)(function)
+        except OSError as error:  # the folder is full, or gone since it was found
+            tell(f"{CACHE}: {error.strerror or error}")
             compiled = numba.njit(signature, **OPTIONS)(function)
         finally:
             config.CACHE_DIR = previous
@@ -150,9 +162,10 @@ def entry(signature: Any) -> Callable[[Function], Function]:
 
 
 def _identity(function: Callable[..., Any]) -> str:
-    """Name of a function for the cache: numba compiles anew when its file has changed, or the processor."""
+    """Name of a function for the cache: its file, what compiles it, the processor."""
     file = function.__code__.co_filename
     state = Path(file).stat()
+    made_by = (sys.version, llvmlite.__version__, np.__version__)
     cpu = (get_host_cpu_name(), get_host_cpu_features().flatten(), config.CPU_NAME, config.CPU_FEATURES)
-    text = repr((file, state.st_mtime_ns, state.st_size, cpu))
+    text = repr((file, state.st_mtime_ns, state.st_size, made_by, cpu))
     return f"{function.__name__}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,9 +20,6 @@ from fdspec.kernels.storey.constants import RADIANS
 from fdspec.kernels.storey.energy import N_FORMS
 from fdspec.kernels.storey.history import RESULTS
 from fdspec.model.motion import GroundMotion
-
-CROWD: Final = 8
-"""Lanes that change phase on the same step from which they are walked side by side; no bit depends on it."""
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -37,7 +33,6 @@ def integrate_columns(
     *,
     certify: bool,
     radians: float = RADIANS,
-    crowd: int = CROWD,
 ) -> tuple[FloatArray, FloatArray]:
     """Integrate frames (m, 6), braced and under each of the slip forces (p,).
 
@@ -46,13 +41,13 @@ def integrate_columns(
     (m, len(RESULTS)) and of all slip forces (m, p, len(RESULTS)).
     """
     never = np.full((frames.shape[0], 2), (np.inf, 0.0))
-    braced, held = _integrate(np.hstack([frames, never]), 0.0, motion, certify, radians, crowd)
+    braced, held = _integrate(np.hstack([frames, never]), 0.0, motion, certify, radians)
     results = np.repeat(braced[:, np.newaxis], slip_force.size, axis=1)
     column, force = np.nonzero(slip_force <= held[:, np.newaxis])
     slipping = np.column_stack([frames[column], slip_force[force], kinetic_slip_force[force]])
     # Neighbours should slip about as much: where none of them does, only stick is computed.
     likeness = slip_force[force] / np.maximum(held[column], np.finfo(float).tiny)
-    results[column, force], _ = _integrate(slipping, likeness, motion, certify, radians, crowd)
+    results[column, force], _ = _integrate(slipping, likeness, motion, certify, radians)
     return braced, results
 
 
@@ -62,7 +57,6 @@ def _integrate(
     motion: GroundMotion,
     certify: bool,
     radians: float,
-    crowd: int,
 ) -> tuple[FloatArray, FloatArray]:
     """Integrate storeys (m, 8) in lanes, alike ones together; return results and the reactions they reach."""
     size = storeys.shape[0]
@@ -82,7 +76,6 @@ def _integrate(
             motion.dt,
             int(parts[lanes[0]]),
             certify,
-            crowd,
             out,
             reached,
         )

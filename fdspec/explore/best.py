@@ -6,15 +6,23 @@ from fdspec.errors import InvalidInput
 from fdspec.explore.indices import INDICES
 from fdspec.explore.packing import pack
 from fdspec.explore.rerun import Rerun
+from fdspec.scheduling.progress import Shown
 
 
 def packed_best(
-    rerun: Rerun, record: int, stiffness_ratio: int, index: str, period: int | None = None
+    rerun: Rerun,
+    record: int,
+    stiffness_ratio: int,
+    index: str,
+    period: int | None = None,
+    going_on: Shown = False,
 ) -> bytes:
     """Return the best pretension at one period, or at every period of the cube, for the page.
 
     Over period: ``pretension``, ``start`` and ``end`` of the band within 5 % of the least, kN, ``end``
     infinite where a damper that never slips is within it; ``value``, the index there in the page's unit.
+
+    going_on: told (done, total) between parts of the search; what it raises ends the search.
 
     Raises
     ------
@@ -37,6 +45,7 @@ def packed_best(
         stiffness_ratio=[float(cube["stiffness_ratio"].values[stiffness_ratio])],
         index=measure,
         workers=1 if period is not None else None,
+        progress=going_on,
         **rerun.frame,
         **rerun.friction,
     ).isel(record=0, stiffness_ratio=0)

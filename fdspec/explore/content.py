@@ -13,6 +13,7 @@ from fdspec.errors import InvalidInput
 from fdspec.explore.indices import Index, known_indices
 from fdspec.explore.packing import pack
 from fdspec.measures import best_on_grid
+from fdspec.store.suitable import loaded
 from fdspec.units import G
 from fdspec.variables import BUILDING_DIMS, STUDY_DIMS
 
@@ -65,6 +66,7 @@ class Content:
             "title": str(cube.attrs.get("title", "")),
             "made": str(cube.attrs.get("history", "")),
             "comment": str(cube.attrs.get("comment", "")),
+            "frame": frame_of(cube),
             "axes": {
                 "stiffness_ratio": cube["stiffness_ratio"].values.tolist(),
                 "pretension": (cube["pretension"].values / 1e3).tolist(),
@@ -103,7 +105,7 @@ class Content:
         there is none; ``bare`` (period) and ``braced`` (stiffness_ratio, period), the two limits of
         acceleration in g.
         """
-        one = self.cube.isel(record=[k]).load()
+        one = loaded(self.cube.isel(record=[k]), self.name)
         arrays: dict[str, NDArray[np.float64]] = {}
         for index in self.indices:
             values = index.values(one).isel(record=0).transpose(*AXES)
@@ -118,6 +120,31 @@ class Content:
                 arrays[name] = one[variable].isel(record=0).transpose(*dims).values / G
         # Level 6 takes three times as long for a twentieth less.
         return gzip.compress(pack({"record": self.records[k]}, arrays), compresslevel=1, mtime=0)
+
+
+FRAME: Final = (
+    ("floor_mass", "floor mass", "t", 1e-3),
+    ("brace_mass", "brace mass", "kg", 1.0),
+    ("damping_ratio", "damping ratio", "", 1.0),
+    ("friction_coefficient", "friction coefficient", "", 1.0),
+    ("normal_force_factor", "normal force over pretension", "", 1.0),
+)
+"""What a reader must know of the frame: parameter, words, the page's unit, factor to it."""
+
+
+def frame_of(cube: xr.Dataset) -> list[dict[str, Any]]:
+    """Return name, words, unit and value of the frame's constants, as far as the cube tells them."""
+    try:
+        told = json.loads(str(cube.attrs.get("parameters", "{}")))
+    except json.JSONDecodeError:
+        return []
+    if not isinstance(told, dict):
+        return []
+    return [
+        {"name": name, "title": title, "unit": unit, "value": told[name] * factor}
+        for name, title, unit, factor in FRAME
+        if isinstance(told.get(name), int | float)
+    ]
 
 
 def _best(values: xr.DataArray, index: Index) -> NDArray[np.float64]:

@@ -5,20 +5,25 @@ from __future__ import annotations
 import asyncio
 import ipaddress
 import tempfile
+import threading
 from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
 from typing import Any, Final
 
 from tornado.httpserver import HTTPServer
+from tornado.iostream import StreamClosedError
 from tornado.netutil import bind_sockets
-from tornado.web import Application, RequestHandler
+from tornado.web import Application, HTTPError, RequestHandler
 
 from fdspec import store
 from fdspec.errors import FdspecError, InvalidInput, StoreError
 from fdspec.explore.best import packed_best
 from fdspec.explore.content import Content
 from fdspec.explore.page import plotly_script, served_page
+from fdspec.explore.point import FIELDS, packed_point, point_of
 from fdspec.explore.rerun import Rerun
 
 POLICY: Final = (
@@ -26,6 +31,15 @@ POLICY: Final = (
     "frame-ancestors 'self'"
 )
 """Content security policy: the page talks to its own server and to nobody else."""
+
+AT_ONCE: Final = 2
+"""Answers that are computed at a time; a reader waits for one."""
+
+WAITING: Final = 8
+"""Answers that may wait for their turn; more are refused, and the page asks again at the next click."""
+
+DIGITS: Final = 9
+"""Of a position at most: Python itself refuses to read numbers of some thousands."""
 
 LOOPBACK_NAMES: Final = r"(localhost|127\.\d+\.\d+\.\d+|\[::1\])"
 """Names under which a server on loopback answers: a stranger's page whose name points here gets 404."""
@@ -62,12 +76,13 @@ async def _serve(content: Content, rerun: Rerun, host: str, port: int, ready: Ca
         raise StoreError(
             f"cannot listen on {host} port {port}: {error.strerror or error}; give another with --port"
         ) from error
-    server = HTTPServer(application(content, rerun, host))
+    found = application(content, rerun, host)
+    server = HTTPServer(found)
     server.add_sockets(sockets)
     bound = sockets[0].getsockname()[1]
     ready(f"http://{f'[{host}]' if ':' in host else host}:{bound}/")
     # The kernels come from their cache while the reader looks at the page.
-    asyncio.get_running_loop().run_in_executor(None, _warm)
+    threading.Thread(target=_warm, name="fdspec-page-warm", daemon=True).start()
     await asyncio.Event().wait()
 
 
@@ -91,13 +106,16 @@ def application(content: Content, rerun: Rerun, host: str) -> Application:
             _Text,
             {"body": plotly_script().encode(), "kind": "text/javascript; charset=utf-8", "keep": True},
         ),
-        (r"/record/(\d+)", _Record, {"content": content}),
+        (r"/record/([0-9]+)", _Record, {"content": content}),
         (r"/history", _History, {"rerun": rerun}),
         (r"/history\.nc", _HistoryFile, {"rerun": rerun}),
+        (r"/point", _Point, {"rerun": rerun}),
         (r"/best", _Best, {"rerun": rerun}),
     ]
     names = LOOPBACK_NAMES if is_loopback(host) else r".*"
-    found = Application(log_function=lambda _: None)
+    # Threads of this name do not hold the process when it is told to end: see fdspec.cli.main.
+    bench = ThreadPoolExecutor(AT_ONCE, thread_name_prefix="fdspec-page")
+    found = Application(log_function=lambda _: None, bench=bench)
     found.add_handlers(names, routes)
     return found
 
@@ -117,6 +135,17 @@ class _Answer(RequestHandler):
         self.set_header("Referrer-Policy", "no-referrer")
         self.set_header("Cache-Control", "no-store")
 
+    def prepare(self) -> None:
+        """Refuse what another site's page asks for: it must not start work here, nor learn of it."""
+        site = self.request.headers.get("Sec-Fetch-Site", "none")
+        origin = self.request.headers.get("Origin", "")
+        elsewhere = origin and origin.partition("://")[2] != self.request.host
+        if self.own and (elsewhere or site not in {"none", "same-origin"}):
+            raise HTTPError(403)
+
+    own = True
+    """Whether only this page may ask."""
+
     def refuse(self, error: FdspecError) -> None:
         """Answer with the sentence that the page shows."""
         self.set_status(422)
@@ -124,6 +153,8 @@ class _Answer(RequestHandler):
 
 
 class _Text(_Answer):
+    own = False
+
     def initialize(self, body: bytes, kind: str, keep: bool = False) -> None:
         self.body, self.kind, self.keep = body, kind, keep
 
@@ -139,10 +170,16 @@ class _Record(_Answer):
         self.content = content
 
     async def get(self, position: str) -> None:
+        if len(position) > DIGITS:
+            raise HTTPError(400)
         if int(position) >= len(self.content.records):
             self.refuse(InvalidInput(f"the cube has {len(self.content.records)} records, not {position}"))
             return
-        body = await asyncio.to_thread(self.content.record, int(position))
+        try:
+            body = await asyncio.to_thread(self.content.record, int(position))
+        except FdspecError as error:  # a cube that is damaged, or was removed, since it was opened
+            self.refuse(error)
+            return
         self.set_header("Content-Type", "application/octet-stream")
         self.finish(body)
 
@@ -156,13 +193,38 @@ class _Computed(_Answer):
         self.rerun = rerun
 
     async def get(self) -> None:
+        bench: ThreadPoolExecutor = self.settings["bench"]
+        if bench._work_queue.qsize() >= WAITING:  # noqa: SLF001 (it has no other name)
+            self.set_status(503)
+            self.finish({"error": "other histories are being computed; try again in a moment"})
+            return
+        self.at_work = bench.submit(self.computed)
         try:
-            body = await asyncio.to_thread(self.computed)
+            body = await asyncio.wrap_future(self.at_work)
         except FdspecError as error:
             self.refuse(error)
             return
+        except asyncio.CancelledError:
+            if self.gone:  # nobody waits for an answer
+                return
+            raise
         self.set_header("Content-Type", self.kind)
-        self.finish(body)
+        with suppress(StreamClosedError):
+            self.finish(body)
+
+    at_work: Future[bytes] | None = None
+    gone = False
+
+    def on_connection_close(self) -> None:
+        """Stop what the client no longer waits for."""
+        self.gone = True
+        if self.at_work is not None:
+            self.at_work.cancel()
+
+    def going_on(self, done: int, total: int) -> None:  # noqa: ARG002
+        """Stop a search between its parts when the client has left."""
+        if self.gone:
+            raise InvalidInput("the client has left")
 
     def computed(self) -> bytes:
         """Return the body of the answer."""
@@ -172,7 +234,9 @@ class _Computed(_Answer):
         """Return a position in the cube that the address names."""
         text = self.get_query_argument(name, "")
         if not (text.isascii() and text.isdecimal()):
-            raise InvalidInput(f"{name} must be a position in the cube, got {text!r}")
+            raise InvalidInput(f"{name} must be a position in the cube, got {text!r:.60}")
+        if len(text) > DIGITS:
+            raise HTTPError(400)
         return int(text)
 
     def place(self) -> tuple[int, int, int, int]:
@@ -188,6 +252,12 @@ class _History(_Computed):
         return self.rerun.packed(*self.place())
 
 
+class _Point(_Computed):
+    def computed(self) -> bytes:
+        given = {field.name: self.get_query_argument(field.name, "") for field in FIELDS}
+        return packed_point(self.rerun, self.position("record"), point_of(given))
+
+
 class _Best(_Computed):
     def computed(self) -> bytes:
         period = self.position("period") if self.get_query_argument("period", "") else None
@@ -197,6 +267,7 @@ class _Best(_Computed):
             self.position("stiffness_ratio"),
             self.get_query_argument("index", ""),
             period,
+            self.going_on,
         )
 
 

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from fdspec.errors import InvalidInput
 from fdspec.measures.cells import require
+from fdspec.variables import NOT_COMPUTED
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -25,7 +27,7 @@ class Cell(NamedTuple):
 
 def status_counts(cube: xr.Dataset) -> dict[str, int]:
     """Count the histories of a cube by how they ended: ``{"ok": 41580}``."""
-    require(cube, ("status",))
+    require(cube, ("status",), dims=())
     counts: dict[str, int] = {}
     meanings = meanings_of(cube)
     for status in _by_record(cube):
@@ -38,7 +40,7 @@ def status_counts(cube: xr.Dataset) -> dict[str, int]:
 
 def failed_cells(cube: xr.Dataset) -> Iterator[Cell]:
     """Give every history that did not end well, by its coordinates."""
-    require(cube, ("status",))
+    require(cube, ("status",), dims=())
     meanings = meanings_of(cube)
     for status in _by_record(cube):
         for index in np.argwhere(status.values != 0):
@@ -60,5 +62,10 @@ def _by_record(cube: xr.Dataset) -> Iterator[xr.DataArray]:
 def meanings_of(cube: xr.Dataset) -> dict[int, str]:
     """Return what each status code of a cube means."""
     about = cube["status"].attrs
-    codes = np.atleast_1d(about["flag_values"]).tolist()
-    return dict(zip(codes, str(about["flag_meanings"]).split(), strict=True))
+    codes = np.atleast_1d(about.get("flag_values", ())).tolist()
+    meanings = str(about.get("flag_meanings", "")).split()
+    if len(codes) != len(meanings):
+        raise InvalidInput(
+            f"status has {len(codes)} codes and {len(meanings)} meanings; its attributes are damaged"
+        )
+    return {NOT_COMPUTED: "not_computed", **dict(zip(codes, meanings, strict=True))}

@@ -4,6 +4,8 @@ Each is one small file: a frozen class of its parameters, whose ``integrate`` ta
 takes and gives back the same `Course`. They serve to see the difference; none is meant to replace it.
 """
 
+from typing import TYPE_CHECKING
+
 from fdspec.methods.bilinear import Bilinear
 from fdspec.methods.bouc_wen import BoucWen
 from fdspec.methods.dimova import Dimova
@@ -13,6 +15,7 @@ from fdspec.methods.newmark import Newmark
 from fdspec.methods.rigid_plastic import RigidPlastic
 from fdspec.methods.selection import EXACT, METHODS, chosen_method
 from fdspec.methods.state_space import StateSpace
+from fdspec.on_demand import submodules
 
 __all__ = [
     "EXACT",
@@ -27,3 +30,6 @@ __all__ = [
     "StateSpace",
     "chosen_method",
 ]
+
+if not TYPE_CHECKING:
+    __getattr__ = submodules(__name__)

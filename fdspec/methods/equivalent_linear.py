@@ -74,7 +74,7 @@ class EquivalentLinear(Method):
 
     def integrate(self, building: Building, motion: GroundMotion, span: Span, start: FloatArray) -> Course:
         """Integrate one history."""
-        from fdspec.kernels.fixed_step.newmark import ITERATION_NOT_CONVERGED
+        from fdspec.kernels.types import ITERATION_NOT_CONVERGED
 
         no_brace_damping(self, building)
         ground, parts = intervals(motion, span), parts_of(motion, self.dt)

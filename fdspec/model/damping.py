@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import InitVar, dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -56,13 +56,22 @@ def symmetric(argument: str, matrix: ArrayLike, unit: str) -> Array:
     return copy
 
 
-def _ratio(argument: str, value: object) -> float:
+def damping_ratio(argument: str, value: object, *, overdamped: bool = False) -> float:
+    """Return a share of critical damping as a float, or say what is wrong with it.
+
+    overdamped: whether it may be 1 or more; unless asked for, that is five per cent written as 5.
+    """
     if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
         raise InvalidInput(f"{argument} must be a number (0.05 is five per cent of critical), not {value!r}")
     number = float(value)
     if not 0.0 <= number < math.inf:
         raise InvalidInput(
             f"{argument} must be 0 or more (0.05 is five per cent of critical), not {number!r}"
+        )
+    if number >= 1.0 and not overdamped:
+        raise InvalidInput(
+            f"{argument} must be below 1 (0.05 is five per cent of critical), not {number!r}; "
+            "where it is meant, say overdamped=True"
         )
     return number
 
@@ -74,7 +83,9 @@ class ModalDamping:
     Parameters
     ----------
     ratio : float or sequence of N floats
-        Damping ratio of every mode, or of each, lowest frequency first. 0 or more.
+        Damping ratio of every mode, or of each, lowest frequency first. From 0 to below 1.
+    overdamped : bool
+        Whether ratios may be 1 or more.
 
     Examples
     --------
@@ -84,15 +95,15 @@ class ModalDamping:
 
     ratio: float | tuple[float, ...] = 0.05
 
-    def __init__(self, ratio: float | Sequence[float] | Array = 0.05) -> None:
+    def __init__(self, ratio: float | Sequence[float] | Array = 0.05, *, overdamped: bool = False) -> None:
         checked: float | tuple[float, ...]
         if np.ndim(ratio) == 1:
             checked = tuple(
-                _ratio(f"ratio of mode {mode}", value)
+                damping_ratio(f"ratio of mode {mode}", value, overdamped=overdamped)
                 for mode, value in enumerate(np.asarray(ratio), start=1)
             )
         else:
-            checked = _ratio("ratio", ratio)
+            checked = damping_ratio("ratio", ratio, overdamped=overdamped)
         object.__setattr__(self, "ratio", checked)
 
     def matrix_of(self, floor_mass: ArrayLike, stiffness: ArrayLike) -> Array:
@@ -119,14 +130,17 @@ class RayleighDamping:
         Damping ratio at both periods; smaller between them, larger outside.
     period_1, period_2 : float, s
         The two periods; they must differ.
+    overdamped : bool
+        Whether the ratio may be 1 or more.
     """
 
     ratio: float
     period_1: float
     period_2: float
+    overdamped: InitVar[bool] = field(default=False, kw_only=True)
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "ratio", _ratio("ratio", self.ratio))
+    def __post_init__(self, overdamped: bool) -> None:
+        object.__setattr__(self, "ratio", damping_ratio("ratio", self.ratio, overdamped=overdamped))
         for name in ("period_1", "period_2"):
             period = getattr(self, name)
             if isinstance(period, bool) or not isinstance(period, (int, float, np.integer, np.floating)):

@@ -1,13 +1,26 @@
 """Where each key of a TOML text is written: tomllib keeps no positions, and an error should name its line."""
 
 import re
+import tomllib
 from collections.abc import Iterator, Mapping
-from typing import Final
+from typing import Any, Final
 
 _BARE: Final = r"""(?:[A-Za-z0-9_-]+|"[^"]*"|'[^']*')"""
 _DOTTED: Final = rf"(?P<name>{_BARE}(?:\s*\.\s*{_BARE})*)"
 _HEADER: Final = re.compile(rf"\s*\[\[?\s*{_DOTTED}\s*\]\]?\s*(?:#.*)?$")
 _KEY: Final = re.compile(rf"\s*{_DOTTED}\s*=")
+
+
+def parsed(text: str) -> dict[str, Any]:
+    """Read TOML, or raise ValueError with what is wrong."""
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ValueError(f"is not TOML: {error}") from None
+    except RecursionError:
+        raise ValueError("lists or tables stand in one another too deeply") from None
+    except ValueError:  # Python's own limit, for the time that it takes
+        raise ValueError("has a number of too many digits") from None
 
 
 def key_lines(text: str) -> dict[tuple[str, ...], int]:

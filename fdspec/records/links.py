@@ -7,15 +7,20 @@ import json
 import os
 import tempfile
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from fdspec.errors import RecordError
+from fdspec.errors import DiskError, RecordError
+from fdspec.locks import locked
 
 VARIABLE: Final = "FDSPEC_RECORDS"
 """Environment variable that names the file of links, in place of the one in the user's configuration."""
+
+PATIENCE: Final = 30.0
+"""s that another process may take to change its links."""
 
 
 @dataclass(frozen=True)
@@ -80,20 +85,35 @@ def linked(name: str) -> Link | None:
 
 def save_links(added: Mapping[str, Link]) -> Path:
     """Add links to those there are, and return the file they are kept in."""
-    return _write_links({**links(), **added})
+    with _changing():
+        return _write_links({**links(), **added})
 
 
 def remove_links(names: tuple[str, ...] | None = None) -> Path:
     """Take out the links of these names, or all, so that the stand-ins are loaded again."""
-    kept = {} if names is None else {name: link for name, link in links().items() if name not in names}
-    file = links_file()
-    if kept:
-        return _write_links(kept)
-    try:
-        file.unlink(missing_ok=True)
-    except OSError as error:
-        raise RecordError(f"{file}: the file of links cannot be deleted ({error})") from error
+    with _changing() as file:
+        kept = {} if names is None else {name: link for name, link in links().items() if name not in names}
+        if kept:
+            return _write_links(kept)
+        try:
+            file.unlink(missing_ok=True)
+        except OSError as error:
+            raise RecordError(f"{file}: the file of links cannot be deleted ({error.strerror})") from error
     return file
+
+
+@contextmanager
+def _changing() -> Iterator[Path]:
+    """Hold the file of links from reading to writing: of two that link at a time none is lost."""
+    file = links_file()
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        with locked(file, wait=PATIENCE):
+            yield file
+    except DiskError as error:
+        raise RecordError(f"{file}: links cannot be written ({error})") from error
+    except OSError as error:
+        raise RecordError(f"{file}: links cannot be written ({error.strerror})") from error
 
 
 def checksum(path: Path) -> str:
@@ -115,7 +135,6 @@ def _write_links(kept: Mapping[str, Link]) -> Path:
 def _write(text: str) -> Path:
     file = links_file()
     try:
-        file.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.NamedTemporaryFile("w", dir=file.parent, delete=False, encoding="utf-8") as temporary:
             temporary.write(text)
         Path(temporary.name).replace(file)

@@ -1,1 +1,8 @@
 """Simulate and sweep: grids and motions to Datasets."""
+
+from typing import TYPE_CHECKING
+
+from fdspec.on_demand import submodules
+
+if not TYPE_CHECKING:
+    __getattr__ = submodules(__name__)

@@ -21,10 +21,11 @@ def named(motions: GroundMotion | Sequence[GroundMotion]) -> tuple[GroundMotion,
     for k, motion in enumerate(given):
         if not isinstance(motion, GroundMotion):
             raise InvalidInput(f"motions[{k}] must be a GroundMotion, got {type(motion).__name__}")
-    names = [motion.name for motion in given]
-    for k, name in enumerate(names):
-        if name in names[:k]:
-            raise InvalidInput(f"motions must have different names, {name!r} stands twice")
+    seen = set()
+    for motion in given:
+        if motion.name in seen:
+            raise InvalidInput(f"motions must have different names, {motion.name!r} stands twice")
+        seen.add(motion.name)
     return given
 
 

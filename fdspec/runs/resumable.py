@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any, Final, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from fdspec.errors import InvalidInput, StoreError
+from fdspec.errors import DiskError, InvalidInput, StoreError
+from fdspec.locks import locked
 from fdspec.model.motion import GroundMotion
 from fdspec.scheduling.threads import Task, cores
 from fdspec.store import chunks
@@ -70,17 +71,47 @@ def sweep_into(
 
     frame: coordinates and attributes of the cube; variables: those to be computed; compute: the values of a
     block, given as columns, under a motion; seconds: core time of the whole cube, roughly.
+
+    Raise BusyError when another process sweeps into the store.
     """
-    path = Path(path)
+    path = Path(os.path.realpath(path))
+    if not os.path.exists(path):  # noqa: PTH110  a name that is too long is none that exists
+        check_writable(path, suffixes=chunks.SUFFIXES)
+    with locked(path):
+        return _sweep_into(
+            path,
+            frame,
+            variables,
+            compute,
+            fan,
+            seconds=seconds,
+            columns_per_task=columns_per_task,
+            restart=restart,
+        )
+
+
+def _sweep_into(
+    path: Path,
+    frame: xr.Dataset,
+    variables: Sequence[Variable],
+    compute: Compute,
+    fan: Fan,
+    *,
+    seconds: float,
+    columns_per_task: int | None,
+    restart: bool,
+) -> xr.Dataset:
     identity = identity_of(frame)
     if restart and path.exists():
-        chunks.described(path)  # what is not fdspec's own is refused
+        if not chunks.is_ours(path):
+            chunks.described(path)  # what is not fdspec's own is refused
         chunks.remove(path)
     if path.exists():
         blocks = _agreed(path, identity)
+        for name in chunks.mend(path, frame, variables, blocks, identity):
+            log.warning("%s of %s was damaged and is mended", name, path)
         log.info("%s: going on where it stopped", path)
     else:
-        check_writable(path, suffixes=chunks.SUFFIXES)
         blocks = plan_blocks({dim: frame.sizes[dim] for dim in _DIMS}, seconds, columns_per_task)
         chunks.create(path, frame, variables, blocks, identity)
         log.info("%s: made, %d blocks of %s", path, len(blocks), dict(blocks.edges))
@@ -90,10 +121,14 @@ def sweep_into(
     log.info("%d of %d histories are finished, %d blocks are left", finished, total, len(todo))
     if todo:
         names = tuple(map(str, frame["record"].values))
-        work = partial(_fill, path.resolve(), blocks, names, tuple(variables), compute)
+        work = partial(_fill, path, blocks, names, tuple(variables), compute)
         fan(work, tasks=[Task(*_columns(blocks, number)) for number in todo], finished=finished)
     chunks.still_there(path)  # also under the last block
     chunks.tidy(path)
+    if left := chunks.unfinished(path):
+        raise DiskError(
+            f"{path}: {left} blocks that were computed are not there any more; start the sweep again"
+        )
     log.info("%s: complete", path)
     return open_cube(path)
 
@@ -163,8 +198,13 @@ def _unfinished(path: Path, blocks: Blocks, variables: Sequence[Variable]) -> It
     for number, state, damaged in chunks.states(path, blocks, variables):
         for chunk in damaged:
             log.warning("%s is damaged and will be computed again", chunk)
-            with chunks.written(path):
-                chunk.unlink()
+        if state is not chunks.State.WHOLE:
+            # The status first: it says that the others are there.
+            status = chunks.chunk_path(
+                path, blocks, number, next(v for v in variables if v.name == chunks.STATUS)
+            )
+            for chunk in (status, *damaged):
+                chunks.clear(chunk)
         if state is not chunks.State.WHOLE:
             yield number
 

@@ -2,7 +2,7 @@
 
 import difflib
 import json
-import tomllib
+import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
 from decimal import Decimal
@@ -25,16 +25,19 @@ from pydantic import (
 from fdspec.errors import RecordError, StudyError
 from fdspec.model.grid import GRID_FIELDS, FloatArray, Grid, checked, contradictions
 from fdspec.model.motion import GroundMotion
-from fdspec.model.toml_lines import key_lines, line_of
+from fdspec.model.toml_lines import key_lines, line_of, parsed
 from fdspec.records import catalogue, load_record, read_record
-from fdspec.variables import CUBE
+from fdspec.variables import CUBE, demand_variables
 
 AXES: Final = ("stiffness_ratio", "pretension", "period")
 
 STUDY_RECORDS: Final = ("FSR1", "FSR2", "FSR3", "FMR1", "FMR2", "FMR3", "FHR1", "FHR2", "FHR3")
 
 _OUTPUTS: Final = tuple(v for v in CUBE.values() if v.dims[:1] == ("record",) and len(v.dims) > 1)
-OUTPUTS: Final = tuple(v.name for v in _OUTPUTS if not v.on_request)
+DEMANDS: Final = tuple(v.name for v in demand_variables(()))
+"""What it computes of frames with columns that yield, gravity, slots or re-centring springs alone."""
+
+OUTPUTS: Final = tuple(v.name for v in _OUTPUTS if not v.on_request and v.name not in DEMANDS)
 """What a study computes unless it names its outputs: what depends on more than the record."""
 
 ON_REQUEST: Final = tuple(v.name for v in _OUTPUTS if v.on_request)
@@ -107,9 +110,9 @@ class Study:
     def parse(cls, text: str, *, name: str = "study", folder: Path = Path()) -> "Study":
         """Read a study from TOML text; `name` stands for the file in error messages."""
         try:
-            table = tomllib.loads(text)
-        except tomllib.TOMLDecodeError as error:
-            raise StudyError(f"{name}: is not TOML: {error}") from None
+            table = parsed(text)
+        except ValueError as error:
+            raise StudyError(f"{name}: {error}") from None
         values: dict[str, Any] = {}
         try:
             values = dict(_StudyFile.model_validate(table))
@@ -118,8 +121,11 @@ class Study:
         else:
             mistakes = [((key,), f"{key}: {sentence}") for key, sentence in contradictions(values)]
         if mistakes:
+            if all(where[0] != "records" for where, _ in mistakes):
+                mistakes += _unknown_records(table.get("records"), folder)
             lines = key_lines(text)
-            placed = sorted((line_of(lines, where), sentence) for where, sentence in mistakes)
+            placed = [(line_of(lines, where), sentence) for where, sentence in mistakes]
+            placed.sort(key=lambda one: one[0])
             raise StudyError("\n".join(f"{name}, line {line}: {sentence}" for line, sentence in placed))
         grid = Grid(**{key: values.pop(key) for key in GRID_FIELDS})
         return cls(grid=grid, folder=folder, **values)
@@ -178,6 +184,8 @@ normal_force_factor = {grid.normal_force_factor!r}
 # Of the brace on its own.
 brace_damping_ratio = {grid.brace_damping_ratio!r}
 
+# Devices of all frames alike; left out, there are none. m, N, N/m.
+{_device_lines(grid)}
 # Variables of the cube; left out, these. Only on request: {", ".join(ON_REQUEST)}.
 {"# " if self.outputs is None else ""}outputs = {_strings(OUTPUTS if self.outputs is None else self.outputs)}
 # Check the energy balance of every history.
@@ -199,9 +207,7 @@ def find_record(record: str | RecordFile, *, folder: Path = Path(), scaled: bool
         When there is no such name and no such file, or the file cannot be used.
     """
     if isinstance(record, str):
-        path = folder / record
-        looks_like_path = bool(path.suffix) or len(Path(record).parts) > 1 or path.exists()
-        if is_catalogued(record) or not looks_like_path:
+        if is_catalogued(record) or not _is_path(record, folder):
             return load_record(record, scaled=scaled)
         record = RecordFile(record)
     about = {key: value for key, value in asdict(record).items() if key != "path"}
@@ -220,12 +226,12 @@ def even_axis(spec: Mapping[str, Any]) -> FloatArray:
     if "start" not in spec or "stop" not in spec or ("step" in spec) == ("num" in spec):
         raise ValueError(f"needs start, stop and one of step and num, got {', '.join(spec) or 'nothing'}")
     for key, value in spec.items():
-        if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value):
-            raise ValueError(f"{key} must be a finite number, got {value!r}")
+        if not _finite(value):
+            raise ValueError(f"{key} must be a finite number, got {value!r:.60}")
     start, stop = Decimal(repr(spec["start"])), Decimal(repr(spec["stop"]))
     if "num" in spec:
         if not isinstance(spec["num"], int) or not 2 <= spec["num"] <= MAX_AXIS:
-            raise ValueError(f"num must be an integer from 2 to {MAX_AXIS}, got {spec['num']}")
+            raise ValueError(f"num must be an integer from 2 to {MAX_AXIS}, got {spec['num']!r:.60}")
         steps = spec["num"] - 1
         return np.array([float(start + (stop - start) * k / steps) for k in range(steps + 1)])
     step = Decimal(repr(spec["step"]))
@@ -236,6 +242,39 @@ def even_axis(spec: Mapping[str, Any]) -> FloatArray:
     if (stop - start) % step:
         raise ValueError(f"steps of {step} from {start} do not end on {stop}")
     return np.array([float(start + step * k) for k in range(int((stop - start) / step) + 1)])
+
+
+def _finite(value: object) -> bool:
+    """Say whether this is a number, and one that a float can hold."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return False
+    try:
+        return math.isfinite(float(value))
+    except OverflowError:
+        return False
+
+
+def _unknown_records(given: object, folder: Path) -> list[tuple[tuple[str | int, ...], str]]:
+    """Mistakes of a study's records that can be seen without reading any."""
+    found: list[tuple[tuple[str | int, ...], str]] = []
+    for index, record in enumerate(given if isinstance(given, list) else []):
+        path = record.get("path") if isinstance(record, dict) else record
+        if not isinstance(path, str):
+            continue  # told already
+        if _is_path(path, folder):
+            if not (folder / path).exists():
+                found.append((("records", index), f"records: there is no file {folder / path}"))
+        elif not is_catalogued(path):
+            try:
+                load_record(path)
+            except RecordError as error:
+                found.append((("records", index), f"records: {error}"))
+    return found
+
+
+def _is_path(record: str, folder: Path) -> bool:
+    """Say whether a text that names no record of the catalogue is meant as a file."""
+    return bool(Path(record).suffix) or len(Path(record).parts) > 1 or (folder / record).exists()
 
 
 def _mistake(where: tuple[str | int, ...], kind: str, message: str) -> tuple[tuple[str | int, ...], str]:
@@ -269,37 +308,37 @@ def _record(value: object) -> str | RecordFile:
     if isinstance(value, str):
         return value
     if not isinstance(value, dict):
-        raise ValueError(f"must be a name, a path or a table, got {value!r}")
+        raise ValueError(f"must be a name, a path or a table, got {value!r:.60}")
     known = [field.name for field in fields(RecordFile)]
     if unknown := [key for key in value if key not in known]:
         raise ValueError(f"unknown key {unknown[0]!r} of a record; known are {', '.join(known)}")
     if "path" not in value:
         raise ValueError("a record given as a table needs path, its file")
     for key, part in value.items():
-        if key == "dt" and (
-            isinstance(part, bool) or not isinstance(part, int | float) or not 0 < part < np.inf
-        ):
-            raise ValueError(f"dt of a record must be positive seconds, got {part!r}")
+        if key == "dt" and not (_finite(part) and part > 0):
+            raise ValueError(f"dt of a record must be positive seconds, got {part!r:.60}")
         if key != "dt" and not isinstance(part, str):
-            raise ValueError(f"{key} of a record must be a string, got {part!r}")
+            raise ValueError(f"{key} of a record must be a string, got {part!r:.60}")
     return RecordFile(**value)
 
 
 def _distinct(values: tuple[Any, ...]) -> tuple[Any, ...]:
     if not values:
         raise ValueError("must name at least one, is empty")
-    for index, value in enumerate(values):
-        if value in values[:index]:
-            raise ValueError(f"names {value!r} twice")
+    seen = set()
+    for value in values:
+        if value in seen:
+            raise ValueError(f"names {value!r:.200} twice")
+        seen.add(value)
     return values
 
 
 def _output(value: str) -> str:
-    known = (*OUTPUTS, *ON_REQUEST)
+    known = (*OUTPUTS, *DEMANDS, *ON_REQUEST)
     if value not in known:
         near = difflib.get_close_matches(value, known, n=1)
         hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
-        raise ValueError(f"does not know {value!r}; {hint}")
+        raise ValueError(f"does not know {value!r:.60}; {hint}")
     return value
 
 
@@ -325,6 +364,25 @@ def _study_file() -> type[BaseModel]:
 
 
 _StudyFile: Final = _study_file()
+
+
+_DEVICE_EXAMPLES: Final = {
+    "storey_height": 3.0,
+    "yield_shear": 100e3,
+    "hardening_ratio": 0.02,
+    "gravity_load": 200e3,
+    "slot_length": 0.03,
+    "slot_stiffness": 50e6,
+    "recentring_stiffness": 1e6,
+}
+
+
+def _device_lines(grid: Grid) -> str:
+    given = grid.devices
+    return "".join(
+        f"{name} = {given[name]!r}\n" if name in given else f"# {name} = {example!r}\n"
+        for name, example in _DEVICE_EXAMPLES.items()
+    )
 
 
 def _axis_text(axis: FloatArray) -> str:

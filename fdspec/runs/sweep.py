@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import os
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -16,11 +18,15 @@ from numpy.typing import ArrayLike, NDArray
 from fdspec.errors import InvalidInput
 from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.methods.batch import integrate_by_method
+from fdspec.model.building import Building, ModalDamping
 from fdspec.model.grid import Grid
 from fdspec.model.motion import GroundMotion
+from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_sweep
 from fdspec.runs.cube import assemble, chosen, named
+from fdspec.runs.plausible import warn_of_units
+from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.threads import Task, cores, fan_out, plan
-from fdspec.variables import CUBE, STUDY_DIMS
+from fdspec.variables import CUBE, STUDY_DIMS, demand_variables
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -31,6 +37,12 @@ Columns = tuple[FloatArray, FloatArray, FloatArray]
 
 SECONDS_PER_SAMPLE: Final = 8e-9
 """Core time of one history for each sample of its record, roughly; for plans, not for results."""
+
+WINDOW: Final = 512
+"""Samples of the record for which histories are computed to see what they cost."""
+
+PROBE: Final = 0.2
+"""s of core time after which enough is known of the cost."""
 
 BARE: Final = {
     "elastic_acceleration": "peak_acceleration",
@@ -51,7 +63,10 @@ BRACED: Final = {
 STRAIN: Final = ("strain_energy_area", "peak_strain_energy")
 """Results of a pass of their own over every history."""
 
-RESPONSES: Final = tuple(v.name for v in CUBE.values() if v.dims == STUDY_DIMS)
+DEMANDS: Final = tuple(v.name for v in demand_variables(()))
+"""Outputs of frames with devices alone."""
+
+RESPONSES: Final = tuple(v.name for v in CUBE.values() if v.dims == STUDY_DIMS and v.name not in DEMANDS)
 _KNOWN: Final = (*RESPONSES, *BARE, *BRACED)
 OUTPUTS: Final = tuple(name for name in _KNOWN if not CUBE[name].on_request)
 ON_REQUEST: Final = tuple(name for name in _KNOWN if CUBE[name].on_request)
@@ -72,6 +87,13 @@ def sweep(
     kinetic_friction_coefficient: float | None = None,
     normal_force_factor: float = 1.0,
     brace_damping_ratio: float = 0.0,
+    storey_height: float | None = None,
+    yield_shear: float | None = None,
+    hardening_ratio: float = 0.0,
+    gravity_load: float | None = None,
+    slot_length: float | None = None,
+    slot_stiffness: float | None = None,
+    recentring_stiffness: float | None = None,
     outputs: Iterable[str] | None = None,
     certify: bool = True,
     workers: int | None = None,
@@ -80,7 +102,7 @@ def sweep(
     client: Client | None = None,
     store: str | os.PathLike[str] | None = None,
     restart: bool = False,
-    progress: bool = False,
+    progress: Shown = False,
 ) -> xr.Dataset:
     """Compute the cube: peaks of a single-storey frame over record, stiffness ratio, pretension and period.
 
@@ -102,6 +124,12 @@ def sweep(
         Of the frame without its brace, and of the brace on its own.
     friction_coefficient, kinetic_friction_coefficient, normal_force_factor : float
         Slip force = friction_coefficient * normal_force_factor * pretension.
+    storey_height, yield_shear, hardening_ratio, gravity_load, slot_length, slot_stiffness,
+    recentring_stiffness : float, optional
+        Devices of all frames alike, as for `fdspec.Building`: columns that yield, gravity, slots, re-centring
+        springs.  With them each history is integrated by itself, a thousand times slower, the cube has the
+        demands of `fdspec.variables.demand_variables` too, and a history may end with the status
+        ``collapsed``.  The limits that ride along stay those of the elastic frame.
     outputs : iterable of str, optional
         Variables of the cube; unless given, all but those of `ON_REQUEST`.
     certify : bool
@@ -120,8 +148,8 @@ def sweep(
         memory holds.  When it is there, from a sweep that was stopped, only what is missing is computed.
     restart : bool
         Whether a store that is there is removed first.
-    progress : bool
-        Show a bar on stderr where it is a terminal.
+    progress : bool or callable
+        Show a bar on stderr where it is a terminal or a notebook's; or call this with (done, total).
 
     Returns
     -------
@@ -152,15 +180,28 @@ def sweep(
         kinetic_friction_coefficient=kinetic_friction_coefficient,
         normal_force_factor=normal_force_factor,
         brace_damping_ratio=brace_damping_ratio,
+        storey_height=storey_height,
+        yield_shear=yield_shear,
+        hardening_ratio=hardening_ratio,
+        gravity_load=gravity_load,
+        slot_length=slot_length,
+        slot_stiffness=slot_stiffness,
+        recentring_stiffness=recentring_stiffness,
     )
     motions = named(motions)
-    wanted = chosen(OUTPUTS if outputs is None else outputs, (*OUTPUTS, *ON_REQUEST), certify)
+    usual = usual_outputs(grid)
+    wanted = chosen(usual if outputs is None else outputs, (*usual, *ON_REQUEST), certify)
     strain = [name for name in wanted if BARE.get(name, name) in STRAIN]
     other = chosen_method(method)
     if strain and other is not None:
         raise InvalidInput(f"outputs {', '.join(strain)} need method 'exact', got {other.name!r}")
+    if grid.devices and (strain or other is not None):
+        what = f"method {other.name!r}" if other is not None else f"outputs {', '.join(strain)}"
+        raise InvalidInput(f"{what}: not for frames with {', '.join(grid.devices)}")
     n_sr, n_f, n_t = grid.shape
-    seconds = [_core_seconds(motion.n, grid, certify) for motion in motions]
+    seconds = seconds_of_sweep(grid, motions, certify)
+    refuse_endless(motions, grid, wanted, sum(seconds), store)
+    warn_of_units(motions, period=grid.period, slip_force=grid.slip_force, floor_mass=grid.floor_mass)
     run = partial(_run_columns, grid, certify, bool(strain), other)
     fan = partial(
         fan_out,
@@ -172,7 +213,6 @@ def sweep(
         client=client,
         progress=progress,
     )
-    parameters = {name: getattr(grid, name) for name in grid.__dataclass_fields__}
     cube_of = partial(
         assemble,
         axes={
@@ -186,7 +226,7 @@ def sweep(
         motions=motions,
         title="Peak response of single-storey frames with friction dampers",
         parameters={
-            **parameters,
+            **grid.parameters,
             **({} if other is None else other.parameters),
             "certify": certify,
             "outputs": list(wanted),
@@ -202,7 +242,9 @@ def sweep(
             [CUBE[name] for name in wanted],
             partial(_block, grid, run, wanted),
             fan,
-            seconds=sum(seconds),
+            seconds=sum(seconds)
+            if columns_per_task
+            else sum(_measured(motions, grid, certify, bool(strain), other)),
             columns_per_task=columns_per_task,
             restart=restart,
         )
@@ -210,9 +252,73 @@ def sweep(
     return cube_of(_variables(grid, len(motions), tasks, fan(run, tasks=tasks), wanted))
 
 
-def estimate(motions: Sequence[GroundMotion], grid: Grid, certify: bool = True) -> float:
-    """Wall seconds that a sweep is expected to take on this machine's cores, roughly."""
-    return _core_seconds(sum(motion.n for motion in motions), grid, certify) / cores()
+def measured(motions: Sequence[GroundMotion], grid: Grid, certify: bool = True) -> float:
+    """Wall seconds that a sweep takes on this machine's cores, from some of its histories, computed here.
+
+    They are taken around the strongest shaking, so that it is rather too much.
+    """
+    return sum(_measured(motions, grid, certify, False, None)) / cores()
+
+
+def _measured(
+    motions: Sequence[GroundMotion], grid: Grid, certify: bool, strain: bool, other: Method | None
+) -> list[float]:
+    """Core seconds of the histories of each motion."""
+    _warm()
+    longest = max(motions, key=lambda motion: motion.n)
+    peak = int(np.argmax(np.abs(longest.acceleration)))
+    first = max(0, min(peak - WINDOW // 4, longest.n - WINDOW))
+    window = GroundMotion(longest.acceleration[first : first + WINDOW], longest.dt, name="window")
+    nothing = GroundMotion(np.zeros(2), longest.dt, name="nothing")
+    ratio = grid.stiffness_ratio[_shares(grid.stiffness_ratio.size, 2)]
+    pretension = grid.pretension[_shares(grid.pretension.size, 8)]
+    period = grid.period[_shares(grid.period.size, 6)]
+    part = replace(grid, stiffness_ratio=ratio, pretension=pretension, period=period)
+    spent, histories = 0.0, 0
+    for k in range(period.size):  # from the shortest, which costs most
+        columns = np.arange(k, ratio.size * period.size, period.size)
+        for motion, sign in ((nothing, -1), (window, 1)):  # what a call costs by itself is no history's
+            started = time.thread_time()
+            _run_columns(part, certify, strain, other, columns, motion)
+            spent += sign * (time.thread_time() - started)
+        histories += columns.size * pretension.size
+        if spent > PROBE:
+            break
+    each = max(spent / (histories * window.n), SECONDS_PER_SAMPLE / 4.0)
+    return [each * motion.n * grid.size for motion in motions]
+
+
+def _shares(size: int, count: int) -> IntArray:
+    """Positions in the middle of equal shares, at most so many."""
+    count = min(size, count)
+    return ((np.arange(count) + 0.5) * size / count).astype(np.int64)
+
+
+def bytes_of(motions: Sequence[GroundMotion], grid: Grid, outputs: Iterable[str]) -> dict[str, int]:
+    """Bytes of each variable of the cube."""
+    n_sr, n_f, n_t = grid.shape
+    lengths = {"record": len(motions), "stiffness_ratio": n_sr, "pretension": n_f, "period": n_t}
+    return {
+        name: math.prod(lengths[dim] for dim in CUBE[name].dims) * np.dtype(CUBE[name].dtype).itemsize
+        for name in outputs
+    }
+
+
+def refuse_endless(
+    motions: Sequence[GroundMotion],
+    grid: Grid,
+    outputs: Iterable[str],
+    seconds: float,
+    store: str | os.PathLike[str] | None,
+) -> None:
+    """Raise InvalidInput for a sweep that this machine cannot hold or that takes longer than the limit."""
+    what = f"a sweep of {len(motions) * grid.size:.4g} histories"
+    size = float(sum(bytes_of(motions, grid, outputs).values()))
+    if store is None:
+        refuse_large(2.0 * size, what)  # once as the tasks return it, once as the cube
+    elif not Path(store).exists():
+        refuse_large(size, what, folder=Path(store).absolute().parent)
+    refuse_long(seconds, SWEEP_HOURS, what)
 
 
 def timed(grid: Grid, motion: GroundMotion, certify: bool = True) -> tuple[float, int]:
@@ -226,8 +332,16 @@ def timed(grid: Grid, motion: GroundMotion, certify: bool = True) -> tuple[float
     return time.thread_time() - started, int(results[:, :, RESULTS.index("transitions")].sum())
 
 
-def _core_seconds(samples: int, grid: Grid, certify: bool) -> float:
-    return samples * grid.size * SECONDS_PER_SAMPLE * (1.35 if certify else 1.0)
+def usual_outputs(grid: Grid) -> tuple[str, ...]:
+    """Return what a sweep computes unless it is told otherwise."""
+    return (*OUTPUTS, *_demands(grid))
+
+
+def _demands(grid: Grid) -> tuple[str, ...]:
+    """Return what only a cube of frames with devices has."""
+    if not grid.devices:
+        return ()
+    return tuple(name for name in DEMANDS if name != "peak_drift_ratio" or grid.storey_height is not None)
 
 
 def _warm() -> None:
@@ -264,9 +378,11 @@ def _run_columns(
     from fdspec.engines.batch import integrate_columns
 
     frames = _frames(grid, columns)
-    exact = slice(None) if other is None else slice(0)
+    exact = slice(None) if other is None and not grid.devices else slice(0)
     slip_force, kinetic = grid.slip_force, grid.kinetic_slip_force
     braced, results = integrate_columns(frames, slip_force[exact], kinetic[exact], motion, certify=certify)
+    if grid.devices:
+        results = _run_devices(grid, frames, motion)
     if other is not None:
         results = integrate_by_method(other, frames, slip_force, kinetic, motion)
     bare = frames[columns < grid.period.size].copy()  # the first stiffness ratio's pairs stand for all
@@ -280,6 +396,30 @@ def _run_columns(
         results = np.concatenate([results, added], axis=-1)
         free = np.concatenate([free, strain_of_columns(bare, *never, motion)[:, 0]], axis=-1)
     return results, braced, free
+
+
+def _run_devices(grid: Grid, frames: FloatArray, motion: GroundMotion) -> FloatArray:
+    """Integrate frames (m, 6) with devices, all pretensions: (m, n_f, results) in the order of `_rows`."""
+    from fdspec.engines.devices import peaks_of
+
+    rows = _rows(grid)
+    results = np.empty((frames.shape[0], grid.pretension.size, len(rows)))
+    for i, (m_f, _, k_f, m_d, c_d, k_d) in enumerate(frames):
+        for j, forces in enumerate(zip(grid.slip_force, grid.kinetic_slip_force, strict=True)):
+            damping = ModalDamping(grid.damping_ratio)
+            building = Building(m_f, k_f, m_d, k_d, *forces, damping, c_d, **grid.devices)
+            storey, whole = peaks_of(building, motion)
+            found = {name: float(values[0]) for name, values in storey.items()} | whole
+            found["peak_base_shear"] = found["peak_storey_shear"]
+            results[i, j] = [found[name] for name in rows]
+    return results
+
+
+def _rows(grid: Grid) -> tuple[str, ...]:
+    """Return the results of a history, in their order."""
+    from fdspec.kernels.storey.history import RESULTS
+
+    return (*RESULTS, *_demands(grid)) if grid.devices else (*RESULTS, *STRAIN)
 
 
 def _block(
@@ -304,9 +444,7 @@ def _variables(
     wanted: Sequence[str],
 ) -> dict[str, NDArray[Any]]:
     """Put what the tasks returned where it stands in the cube."""
-    from fdspec.kernels.storey.history import RESULTS
-
-    rows = (*RESULTS, *STRAIN)
+    rows = _rows(grid)
     n_sr, n_f, n_t = grid.shape
     responses: dict[str, NDArray[Any]] = {
         name: np.empty((n_r, n_sr, n_f, n_t), dtype=CUBE[name].dtype) for name in wanted if name in rows

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import logging
+import math
 from collections.abc import Iterable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Final
@@ -10,12 +12,15 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from fdspec.model.building import Frame
+from fdspec.model.building import Building, Frame
 from fdspec.model.building_grid import BuildingGrid, Buildings
 from fdspec.model.motion import GroundMotion
+from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_history
 from fdspec.runs.cube import assemble, chosen, named
-from fdspec.scheduling.threads import Task, fan_out, plan
-from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS
+from fdspec.runs.plausible import warn_of_units
+from fdspec.scheduling.progress import Shown
+from fdspec.scheduling.threads import Task, cores, fan_out, plan
+from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS, demand_variables
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -23,11 +28,17 @@ if TYPE_CHECKING:
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-SECONDS_PER_SAMPLE: Final = 0.15e-6
-"""Core time of one history for each sample of its record and N^1.5, roughly; for plans, not for results."""
+LONG: Final = 60.0
+"""s of work above which it is told what a stop would lose."""
+
+log = logging.getLogger(__name__)
 
 LIMITS: Final = ("elastic_acceleration", "braced_acceleration")
-RESPONSES: Final = tuple(v.name for v in BUILDING_CUBE.values() if v.dims[:4] == BUILDING_DIMS)
+DEMANDS: Final = tuple(v.name for v in demand_variables(()))
+"""Outputs of sweeps with devices alone."""
+RESPONSES: Final = tuple(
+    v.name for v in BUILDING_CUBE.values() if v.dims[:4] == BUILDING_DIMS and v.name not in DEMANDS
+)
 OUTPUTS: Final = (*RESPONSES, *LIMITS)
 
 
@@ -43,7 +54,7 @@ def sweep_buildings(
     scheduler: str = "threads",
     cells_per_task: int | None = None,
     client: Client | None = None,
-    progress: bool = False,
+    progress: Shown = False,
 ) -> xr.Dataset:
     """Compute the cube of buildings: peaks of every storey over record, building and two factors on dampers.
 
@@ -76,12 +87,14 @@ def sweep_buildings(
         Histories of one task; about 0.2 s of work unless given.  No result depends on it.
     client : distributed.Client, optional
         Any cluster of dask.distributed, in place of threads here.
-    progress : bool
-        Show a bar on stderr where it is a terminal.
+    progress : bool or callable
+        Show a bar on stderr where it is a terminal or a notebook's; or call this with (done, total).
 
     Returns
     -------
     xarray.Dataset
+        Where a building has columns that yield, slots, gravity or links, all cells have the demands on
+        these too (`fdspec.variables.demand_variables`), and a history may end with the status ``collapsed``.
         Dims (record, building, stiffness_scale, slip_scale) and, for what each storey has of its own,
         storey; variables, units and meanings are those of `fdspec.variables.BUILDING_CUBE`.
 
@@ -92,6 +105,9 @@ def sweep_buildings(
 
     Notes
     -----
+    Results are held in memory until the end: a sweep that is stopped loses them.  Where that is more than a
+    minute of work a warning is logged.
+
     The equations of motion are the study's (19) to (25).  Of the limits that ride along,
     ``elastic_acceleration`` is the frame without braces.  A damper that slides freely is another
     building: the braces stand on the floors and swing there, and ``slip_scale`` 0 computes it.
@@ -107,10 +123,31 @@ def sweep_buildings(
     """
     grid = BuildingGrid(buildings, stiffness_scale, slip_scale)
     motions = named(motions)
-    wanted = chosen(outputs, OUTPUTS, certify)
+    known = (*OUTPUTS, *_demands(grid))
+    wanted = chosen(outputs, known, certify)
     histories = _ends(grid)[-1 if set(LIMITS) & set(wanted) else 0]
-    seconds = [histories * motion.n * SECONDS_PER_SAMPLE * grid.n_storeys**1.5 for motion in motions]
+    what = f"a sweep of {len(motions) * histories:.4g} histories"
+    refuse_large(8.0 * len(motions) * histories * grid.n_storeys * 2 * len(wanted), what)
+    seconds = [
+        histories
+        * max(seconds_of_history(building, motion.dt, motion.n) for building in grid.buildings)
+        * math.sqrt(max(1.0, float(grid.stiffness_scale.mean())))
+        for motion in motions
+    ]
+    refuse_long(sum(seconds), SWEEP_HOURS, what)
+    warn_of_units(
+        motions,
+        period=[building.bare_periods[0] for building in grid.buildings],
+        slip_force=grid.slip_force,
+        floor_mass=[building.floor_mass.min() for building in grid.buildings],
+    )
     tasks = plan(histories, seconds, cells_per_task, "cells_per_task")
+    if (expected := sum(seconds) / cores()) > LONG:
+        log.warning(
+            "about %.0f min of work are held in memory until the end, and lost when it is stopped; sweep a "
+            "few buildings or records at a time, and save each",
+            expected / 60.0,
+        )
     parts = fan_out(
         partial(_run, grid, certify),
         motions,
@@ -172,17 +209,40 @@ def _frame(grid: BuildingGrid, history: int) -> Frame:
     return given._replace(properties=properties)
 
 
+def _building(grid: BuildingGrid, history: int) -> Building:
+    """Return the building of one cell, with its dampers scaled."""
+    _, n_k, n_s = grid.shape
+    column, s = divmod(history, n_s)
+    b, k = divmod(column, n_k)
+    return grid.buildings[b].with_changes(
+        brace_stiffness=grid.brace_stiffness[b, k],
+        brace_damping=grid.brace_damping[b, k],
+        slip_force=grid.slip_force[b, s],
+        kinetic_slip_force=grid.kinetic_slip_force[b, s],
+    )
+
+
+def _with_devices(grid: BuildingGrid) -> bool:
+    """Whether any building has devices: then all cells have the results that devices add."""
+    return any(building.has_devices for building in grid.buildings)
+
+
 def _warm(grid: BuildingGrid) -> None:
     from fdspec.engines.frames import runs_beside_others
 
     if not all(runs_beside_others(building.frame) for building in grid.buildings):
-        import fdspec.engines.many_storeys  # noqa: F401
+        import fdspec.engines.many_storeys
+    if _with_devices(grid):
+        import fdspec.engines.devices  # noqa: F401
 
 
 def _run(
     grid: BuildingGrid, certify: bool, histories: IntArray, motion: GroundMotion
 ) -> tuple[FloatArray, FloatArray]:
     """Integrate some histories of a record: results by storey (m, rows, N) and totals (m, entries)."""
+    if _with_devices(grid):
+        results = [_run_one(grid, certify, int(history), motion) for history in histories]
+        return np.stack([rows for rows, _ in results]), np.stack([whole for _, whole in results])
     from fdspec.engines.frames import peaks_of_frames
     from fdspec.kernels.frame.results import STOREY_RESULTS, TOTALS
 
@@ -197,6 +257,48 @@ def _run(
     return by_storey, totals
 
 
+def _run_one(
+    grid: BuildingGrid, certify: bool, history: int, motion: GroundMotion
+) -> tuple[FloatArray, FloatArray]:
+    """Integrate one history by the engine for its building: rows of `_rows` (rows, N), and TOTALS.
+
+    The limits that ride along are those of the elastic frame. Beside a building with devices, one without
+    is integrated by both engines: its peaks are those of the engine of frames, to the bit.
+    """
+    from fdspec.engines.frames import peaks_of_frames
+    from fdspec.kernels.frame.results import STOREY_RESULTS, TOTALS
+
+    if history >= _ends(grid)[0]:
+        by_storey, of_all = peaks_of_frames([_frame(grid, history)], motion, certify=False)
+        missing = np.zeros((len(_rows(grid)) - len(STOREY_RESULTS), grid.n_storeys))
+        return np.concatenate([by_storey[0], missing]), of_all[0]
+    from fdspec.engines.devices import peaks_of as peaks_with_devices
+
+    building = _building(grid, history)
+    storeys, whole = peaks_with_devices(building, motion)
+    table = np.stack([storeys[name] for name in _rows(grid)])
+    totals = np.array([whole[name] for name in TOTALS])
+    if not building.has_devices:
+        by_storey, of_all = peaks_of_frames([_frame(grid, history)], motion, certify=certify)
+        table[: len(STOREY_RESULTS)], totals = by_storey[0], of_all[0]
+    return table, totals
+
+
+def _rows(grid: BuildingGrid) -> tuple[str, ...]:
+    """Return the names of what each storey has of its own."""
+    from fdspec.kernels.frame.results import STOREY_RESULTS
+
+    return (*STOREY_RESULTS, *_demands(grid))
+
+
+def _demands(grid: BuildingGrid) -> tuple[str, ...]:
+    """Return what only a cube with devices in it has of each storey."""
+    if not _with_devices(grid):
+        return ()
+    known = all(not np.isnan(building.storey_height).any() for building in grid.buildings)
+    return tuple(name for name in DEMANDS if known or name != "peak_drift_ratio")
+
+
 def _variables(
     grid: BuildingGrid,
     n_r: int,
@@ -205,16 +307,17 @@ def _variables(
     wanted: Sequence[str],
 ) -> dict[str, NDArray[np.generic]]:
     """Put what the tasks returned where it stands in the cube."""
-    from fdspec.kernels.frame.results import STOREY_RESULTS, TOTALS
+    from fdspec.kernels.frame.results import TOTALS
 
+    rows = _rows(grid)
     cells, braced, bare = _ends(grid)
     histories = 1 + max(int(task.items.max()) for task in tasks)
-    by_storey = np.empty((len(STOREY_RESULTS), n_r, histories, grid.n_storeys))
+    by_storey = np.empty((len(rows), n_r, histories, grid.n_storeys))
     totals = np.empty((len(TOTALS), n_r, histories))
     for (r, items), (of_storeys, of_all) in zip(tasks, parts, strict=True):
         by_storey[:, r, items] = of_storeys.transpose(1, 0, 2)
         totals[:, r, items] = of_all.T
-    results = dict(zip(STOREY_RESULTS, by_storey, strict=True)) | dict(zip(TOTALS, totals, strict=True))
+    results = dict(zip(rows, by_storey, strict=True)) | dict(zip(TOTALS, totals, strict=True))
     results["peak_base_shear"] = results["peak_storey_shear"][..., 0]
     results["residual_drift"] = np.diff(results["residual_displacement"], prepend=0.0)
     acceleration = results["peak_acceleration"]

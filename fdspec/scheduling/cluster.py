@@ -7,7 +7,10 @@ keeps it, and when the worker that held it dies it is made again.
 from __future__ import annotations
 
 import logging
+import multiprocessing.resource_tracker
+import signal
 import socket
+import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError
@@ -43,8 +46,15 @@ DEATHS: Final = 2
 PATIENCE: Final = 120.0
 """s that a lost scheduler, or the first worker, is waited for."""
 
+SILENCE: Final = 5.0
+"""s without a result after which the workers are counted."""
+
+LOOPBACK: Final = "127.0.0.1"
+
 CONNECT: Final = 30.0
 """s that a scheduler may take to answer."""
+
+ASKED: Final = "__import__('fdspec.scheduling.cluster', fromlist=['version']).version()"
 
 log = logging.getLogger(__name__)
 
@@ -67,21 +77,43 @@ def connected(address: str) -> Iterator[Client]:
 def processes(count: int) -> Iterator[Client]:
     """Give a client of so many worker processes on this machine, each of one thread."""
     with _installed():
-        from distributed import Client, LocalCluster
-    with (
-        LocalCluster(
+        from distributed import Client, LocalCluster, Security
+    with _deaf_to_ctrl_c():
+        cluster = LocalCluster(
             n_workers=count,
             threads_per_worker=1,
             processes=True,
-            dashboard_address=":0",  # 8787 may be taken
+            host=LOOPBACK,
+            dashboard_address=f"{LOOPBACK}:0",  # it is served even where none is asked for, then to everybody
+            worker_dashboard_address=f"{LOOPBACK}:0",
             silence_logs=logging.CRITICAL,
-        ) as cluster,
-        Client(cluster, set_as_default=False) as client,
-    ):
+            security=Security.temporary(),  # who can reach the scheduler can run code here
+        )
+    with cluster, Client(cluster, set_as_default=False) as client:
         # One that is killed is started again by its nanny; should that give up too, this makes another.
         cluster.adapt(minimum=count, maximum=count)
         log.info("%d worker processes", count)
         yield client
+
+
+@contextmanager
+def _deaf_to_ctrl_c() -> Iterator[None]:
+    """Have processes that are started in this block, and by threads started in it, never hear of a Ctrl-C.
+
+    A terminal sends it to all of them; this process alone answers it, and ends the others.
+    """
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    # Else spawning starts it and unblocks the signal.  What a killed worker left it clears without a word.
+    sys.warnoptions.append("ignore:resource_tracker:UserWarning")
+    multiprocessing.resource_tracker.ensure_running()
+    sys.warnoptions.remove("ignore:resource_tracker:UserWarning")
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def gather(
@@ -99,6 +131,7 @@ def gather(
     results: dict[int, Result] = {}
     deaths: dict[int, int] = {}
     left = list(range(len(tasks)))
+    _check_workers(client)
     while left:
         for index, outcome in _round(client, work, motions, tasks, left):
             if isinstance(outcome, Exception):
@@ -162,7 +195,7 @@ def _round(
     first = [send(index) for index in islice(waiting, IN_FLIGHT)]
     completed = as_completed(first, loop=client.loop)
     try:
-        for future in completed:
+        for future in _as_they_come(client, completed):
             index = index_of.pop(future)
             if future.status == "finished":
                 try:
@@ -182,6 +215,71 @@ def _round(
     finally:
         with suppress(OSError, CancelledError):
             client.cancel(list(index_of))
+
+
+def _as_they_come(client: Client, completed: Any) -> Iterator[Future[Any]]:
+    """Give futures as they end; an error when for long there has been neither a result nor a worker."""
+    heard = time.monotonic()
+    alone_since = None
+    while not completed.is_empty():
+        if batch := completed.next_batch(block=False):
+            yield from batch
+            heard, alone_since = time.monotonic(), None
+            continue
+        time.sleep(0.005)
+        if time.monotonic() - heard < SILENCE:
+            continue
+        heard = time.monotonic()
+        if client.status != "running" or _workers(client):
+            alone_since = None
+        elif alone_since is None:
+            alone_since = heard
+        elif heard - alone_since > PATIENCE:
+            raise ClusterError(f"the cluster has had no workers for {PATIENCE:.0f} s; start some")
+
+
+def _workers(client: Client) -> list[str]:
+    """Addresses of the workers; of one that is unknown where the scheduler does not answer."""
+    try:
+        return list(client.scheduler_info(-1)["workers"])
+    except (OSError, KeyError, TimeoutError):
+        return [""]
+
+
+def _check_workers(client: Client) -> None:
+    """Wait for a worker, no longer than PATIENCE, and make sure that those there are run this fdspec.
+
+    Asked of each in words that every Python understands: a worker without fdspec cannot read its functions.
+    """
+    # A cluster that grows by need starts its first worker for the first task.
+    first = client.submit(eval, "1", pure=False)
+    for patience in (min(2.0 * SILENCE, PATIENCE), PATIENCE):
+        try:
+            first.result(timeout=patience)
+            break
+        except TimeoutError:
+            if patience == PATIENCE:
+                raise ClusterError(
+                    f"no worker took a task within {PATIENCE:.0f} s; start workers for this scheduler"
+                ) from None
+            log.warning("waiting for the first worker, for %.0f s at most", PATIENCE)
+    asked = {
+        address: client.submit(eval, ASKED, workers=[address], pure=False)
+        for address in _workers(client)
+        if address
+    }
+    until = time.monotonic() + PATIENCE
+    for address, future in asked.items():
+        try:
+            theirs = future.result(timeout=max(until - time.monotonic(), 0.1))
+        except (TimeoutError, CancelledError):  # busy, or gone: the next answers with its first task
+            continue
+        except Exception as error:
+            raise ClusterError(
+                f"worker {address} cannot load fdspec ({error}); install fdspec {__version__} there"
+            ) from error
+        if theirs != version():
+            raise ClusterError(_other_version(address, theirs))
 
 
 @contextmanager
@@ -210,11 +308,15 @@ def _run(
     expected: str, work: Callable[[IntArray, GroundMotion], Result], items: IntArray, motion: GroundMotion
 ) -> Result:
     if version() != expected:
-        raise ClusterError(
-            f"worker {socket.gethostname()} runs fdspec {version()}, this is fdspec {expected}; "
-            "install one version everywhere"
-        )
+        raise ClusterError(_other_version(socket.gethostname(), version(), expected))
     return work(items, motion)
+
+
+def _other_version(worker: str, theirs: str, ours: str | None = None) -> str:
+    return (
+        f"worker {worker} runs fdspec {theirs}, this is fdspec {ours or version()}; "
+        "install one version everywhere"
+    )
 
 
 def _wait_for_scheduler(client: Client) -> None:

@@ -6,10 +6,12 @@ Results do not depend on how items are shared out: each item is computed from it
 from __future__ import annotations
 
 import math
+import multiprocessing
 import os
 import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager
 from functools import partial
 from types import FrameType
@@ -22,7 +24,9 @@ from numpy.typing import NDArray
 
 from fdspec.errors import InvalidInput
 from fdspec.model.motion import GroundMotion
+from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.progress import progress as progress_bar
+from fdspec.stopping import STOPPING
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -81,7 +85,7 @@ def fan_out(
     warm: Callable[[], None],
     workers: int | None,
     scheduler: str,
-    progress: bool,
+    progress: Shown,
     client: Client | None = None,
     finished: int = 0,
     what: str = "histories",
@@ -111,8 +115,31 @@ def fan_out(
     with progress_bar(total, what, shown=progress, finished=finished) as done, _reported(done):
         with interrupted_at_last():
             warm()
-        parts = dask.compute(*graph, scheduler=scheduler, num_workers=workers or cores())
+        done(0)
+        with _pool(scheduler, workers or cores()) as pool:
+            parts = dask.compute(*graph, scheduler=scheduler, num_workers=workers or cores(), **pool)
     return [part.result for part in parts]
+
+
+@contextmanager
+def _pool(scheduler: str, count: int) -> Iterator[dict[str, Executor]]:
+    """Give dask threads of this sweep's own.
+
+    dask keeps those that it makes for later, and a forked child would wait for its parent's for ever.
+    """
+    if scheduler == "processes" and multiprocessing.current_process().daemon:
+        raise InvalidInput(
+            "a process of a multiprocessing.Pool can start no processes: "
+            "give scheduler='threads' or 'synchronous'"
+        )
+    if scheduler != "threads":
+        yield {}
+        return
+    pool = ThreadPoolExecutor(count, thread_name_prefix="fdspec")
+    try:
+        yield {"pool": pool}
+    finally:
+        pool.shutdown(cancel_futures=True)
 
 
 def _counted(
@@ -123,27 +150,29 @@ def _counted(
 
 @contextmanager
 def interrupted_at_last() -> Iterator[None]:
-    """Raise KeyboardInterrupt at the end of this block for a Ctrl-C that was not heard inside it.
+    """Heed at the end of this block a Ctrl-C, or another signal that raises, that was not heard inside it.
 
     Loading kernels runs callbacks from C, and what is raised in one of those Python prints and forgets.
     """
-    previous = signal.getsignal(signal.SIGINT)
-    if threading.current_thread() is not threading.main_thread() or not callable(previous):
+    heeded = {number: handler for number in STOPPING if callable(handler := signal.getsignal(number))}
+    if threading.current_thread() is not threading.main_thread() or not heeded:
         yield
         return
     came = []
 
     def remember(number: int, frame: FrameType | None) -> None:
         came.append(number)
-        previous(number, frame)
+        heeded[number](number, frame)
 
-    signal.signal(signal.SIGINT, remember)
+    for number in heeded:
+        signal.signal(number, remember)
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, previous)
+        for number, handler in heeded.items():
+            signal.signal(number, handler)
     if came:
-        raise KeyboardInterrupt
+        heeded[came[0]](came[0], None)
 
 
 @contextmanager

@@ -49,16 +49,19 @@ def husid(motion: GroundMotion) -> NDArray[np.float64]:
 
 
 def arias_time(motion: GroundMotion, share: float) -> float:
-    """Return the time, s, at which the given share (0 to 1) of the Arias intensity has arrived.
+    """Return the first time, s, at which the given share (0 to 1) of the Arias intensity has arrived.
 
-    Between samples the share is taken as linear in time.
+    Between samples the share is taken as linear in time. All of it has arrived where the shaking ends,
+    with or without zeros behind.
     """
     if not 0.0 <= share <= 1.0:
         raise InvalidInput(f"share must be from 0 to 1, not {share!r}")
     arrived = husid(motion)
     if arrived[-1] == 0.0:
         raise InvalidInput("a motion that is zero throughout has no Arias intensity")
-    return float(np.interp(share * arrived[-1], arrived, motion.time))
+    after = int(np.searchsorted(arrived, share * arrived[-1]))
+    around = slice(max(after - 1, 0), after + 1)
+    return float(np.interp(share * arrived[-1], arrived[around], motion.time[around]))
 
 
 def intensity(motion: GroundMotion, start: float = 0.05, end: float = 0.95) -> Intensity:
@@ -73,8 +76,9 @@ def intensity(motion: GroundMotion, start: float = 0.05, end: float = 0.95) -> I
     Returns
     -------
     Intensity
-        `pga`, m/s2; `pgv`, m/s, and `pgd`, m, at the samples, integrated from rest without correction;
-        `arias`, m/s (Arias 1970); `significant_duration`, s (Trifunac and Brady 1975); `cav`, m/s.
+        `pga`, m/s2; `pgv`, m/s, and `pgd`, m, of the continuous motion, integrated from rest without
+        correction; `arias`, m/s (Arias 1970); `significant_duration`, s (Trifunac and Brady 1975); `cav`,
+        m/s.
 
     Examples
     --------
@@ -86,8 +90,8 @@ def intensity(motion: GroundMotion, start: float = 0.05, end: float = 0.95) -> I
         raise InvalidInput(f"start must be below end, not {start!r} and {end!r}")
     return Intensity(
         pga=motion.pga,
-        pgv=float(np.abs(velocity(motion)).max()),
-        pgd=float(np.abs(displacement(motion)).max()),
+        pgv=_peak_velocity(motion),
+        pgd=_peak_displacement(motion),
         arias=float(husid(motion)[-1]),
         significant_duration=arias_time(motion, end) - arias_time(motion, start),
         cav=_cav(motion),
@@ -128,6 +132,28 @@ def mean_period(motion: GroundMotion) -> float:
             f"{motion.name or 'the motion'} has nothing between 0.25 and 20 Hz: no mean period"
         )
     return float((power / frequency[inside]).sum() / power.sum())
+
+
+def _peak_velocity(motion: GroundMotion) -> float:
+    """Return the largest |velocity|, m/s: at a sample, or between two where the acceleration changes sign."""
+    a, v = motion.acceleration, velocity(motion)
+    before = np.flatnonzero(a[:-1] * a[1:] < 0.0)
+    until_turn = motion.dt * a[before] / (a[before] - a[before + 1])
+    turns = v[before] + 0.5 * a[before] * until_turn
+    return float(np.abs(np.concatenate([v, turns])).max())
+
+
+def _peak_displacement(motion: GroundMotion) -> float:
+    """Return the largest |displacement|, m: at a sample, or between two where the velocity is zero."""
+    a, v, d, h = motion.acceleration[:-1], velocity(motion)[:-1], displacement(motion), motion.dt
+    bend = np.diff(motion.acceleration) / (2.0 * h)  # velocity is v + a t + bend t^2
+    with np.errstate(all="ignore"):
+        root = np.sqrt(a * a - 4.0 * bend * v)
+        large = -0.5 * (a + np.copysign(root, a))
+        times = np.stack([large / bend, v / large])
+        turns = d[:-1] + times * (v + times * (a / 2.0 + times * (bend / 3.0)))
+        inside = (times > 0.0) & (times < h)
+    return float(np.abs(np.concatenate([d, turns[inside]])).max())
 
 
 def _cav(motion: GroundMotion) -> float:

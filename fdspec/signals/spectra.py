@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 
 SHORTEST: Final = 0.05
 """In units of dt: an oscillator with a shorter period follows the ground to rounding of the sampling."""
+
+ENDLESS: Final = 1e300
+"""A strength that nothing reaches, m/s2; a displacement that nothing reaches, m."""
 
 _DIMS: Final = ("record", "damping_ratio", "period")
 
@@ -43,7 +46,11 @@ SPECTRA: Final[Registry] = MappingProxyType(
 
 
 def elastic_spectra(
-    motions: GroundMotion | Sequence[GroundMotion], period: ArrayLike, damping_ratio: ArrayLike = 0.05
+    motions: GroundMotion | Sequence[GroundMotion],
+    period: ArrayLike,
+    damping_ratio: ArrayLike = 0.05,
+    *,
+    after: Literal["record", "peak"] = "record",
 ) -> xr.Dataset:
     """Compute the elastic response spectra of ground motions.
 
@@ -52,9 +59,13 @@ def elastic_spectra(
     motions : GroundMotion or sequence of them
         Names must differ.
     period : array_like, s
-        Undamped natural periods, positive, at least a twentieth of the shortest time step.
+        Undamped natural periods: 0, which rides with the ground, or at least a twentieth of the longest time
+        step.
     damping_ratio : float or array_like
         From 0 up; 1 and more is an oscillator that creeps back.
+    after : "record" or "peak"
+        Where to stop: at the record's end, or when no larger peak can come.  Oscillators of long period may
+        have their largest peak after the record, most where it was cut off early.
 
     Returns
     -------
@@ -69,8 +80,8 @@ def elastic_spectra(
 
     Notes
     -----
-    The oscillator starts at rest, the ground acceleration is linear between its samples, peaks are those of
-    the continuous motion while the record lasts. Nigam and Jennings (1969) for the motion at the samples.
+    The oscillator starts at rest, the ground acceleration is linear between its samples and zero after the
+    record, peaks are those of the continuous motion. Nigam and Jennings (1969) for the motion at the samples.
 
     Examples
     --------
@@ -88,21 +99,30 @@ def elastic_spectra(
     periods = _axis("period", period)
     ratios = _axis("damping_ratio", damping_ratio)
     shortest = max(motion.dt for motion in records) * SHORTEST
-    if periods.min(initial=math.inf) < shortest:
+    for value in periods[(periods != 0.0) & (periods < shortest)]:
         raise InvalidInput(
-            f"period must be at least {shortest:g} s, a twentieth of dt, not {periods.min():g}"
+            f"period must be 0 or at least {shortest:g} s, a twentieth of the longest dt, not {value:g}"
         )
+    if after not in ("record", "peak"):
+        raise InvalidInput(f'after must be "record" or "peak", not {after!r}')
     if ratios.min(initial=math.inf) < 0.0:
         raise InvalidInput(f"damping_ratio must be 0 or more, not {ratios.min():g}")
-    omega, zeta = (grid.ravel() for grid in np.meshgrid(2.0 * np.pi / periods, ratios))
-    peaks = np.stack([_peaks(motion, omega, zeta) for motion in records])
-    shape = (len(records), ratios.size, periods.size)
-    displacement = peaks[:, 0].reshape(shape)
+    swings = periods > 0.0
+    frequency = 2.0 * np.pi / periods[swings]
+    omega, zeta = (grid.ravel() for grid in np.meshgrid(frequency, ratios))
+    peaks_of = _peaks if after == "record" else _peaks_at_last
+    peaks = np.zeros((len(records), 2, ratios.size, periods.size))
+    for found, motion in zip(peaks, records, strict=True):
+        found[..., swings] = peaks_of(motion, omega, zeta).reshape(2, ratios.size, -1)
+        found[1][..., ~swings] = motion.pga
+    displacement = peaks[:, 0]
+    pseudo = peaks[:, 1].copy()  # of period 0, where the two agree
+    pseudo[..., swings] = displacement[..., swings] * frequency**2
     dataset = xr.Dataset(
         {
             "spectral_displacement": (_DIMS, displacement),
-            "pseudo_acceleration": (_DIMS, displacement * (2.0 * np.pi / periods) ** 2),
-            "absolute_acceleration": (_DIMS, peaks[:, 1].reshape(shape)),
+            "pseudo_acceleration": (_DIMS, pseudo),
+            "absolute_acceleration": (_DIMS, peaks[:, 1]),
         },
         coords={"record": names, "damping_ratio": ratios, "period": periods},
     )
@@ -135,6 +155,24 @@ def _peaks(
         ground = np.ascontiguousarray(_subdivided(motion.acceleration, int(parts)))
         elastic_peaks(omega[chosen], zeta[chosen], ground, motion.dt / parts, found)
         peaks[:, chosen] = found
+    return peaks
+
+
+def _peaks_at_last(
+    motion: GroundMotion, omega: NDArray[np.float64], zeta: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the same with free vibration until no larger peak can come."""
+    from fdspec.kernels.bilinear.entry import bilinear_histories
+    from fdspec.kernels.bilinear.history import RESULTS
+
+    peaks = np.empty((2, omega.size))
+    never, out = np.array([ENDLESS]), np.empty((1, len(RESULTS)))
+    for at, (rate, ratio) in enumerate(zip(omega, zeta, strict=True)):
+        damping, stiffness = 2.0 * ratio * rate, rate * rate
+        bilinear_histories(
+            motion.acceleration, motion.dt, damping, stiffness, 0.0, never, never, False, True, 0, out
+        )
+        peaks[:, at] = out[0, :2]
     return peaks
 
 

@@ -9,18 +9,32 @@ import subprocess
 import sys
 import tempfile
 import warnings
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from itertools import repeat
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, ParamSpec
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fdspec.errors import StoreError
+from fdspec.errors import DamagedError, DiskError, FdspecError
 from fdspec.measures.statuses import meanings_of, status_counts
-from fdspec.store import chunks, save
+from fdspec.store import checksums, chunks, save
 from fdspec.store import open as open_cube
-from fdspec.variables import BUILDING_CUBE, CUBE, STATUSES, describe
+from fdspec.store.netcdf import checksums_of
+from fdspec.store.origin import is_cube, parameters_of, records_of, untrue
+from fdspec.store.plausible import wrong, wrong_coordinates
+from fdspec.store.refusals import no_resources
+from fdspec.variables import (
+    BUILDING_CUBE,
+    CUBE,
+    HISTORY,
+    NOT_COMPUTED,
+    STATUSES,
+    STUDY_DIMS,
+    Registry,
+    describe,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -40,34 +54,70 @@ class Finding(NamedTuple):
 
 
 def check(path: str | os.PathLike[str]) -> Iterator[Finding]:
-    """Look through a cube that `save` or a sweep left: schema, CF, records, checksums, statuses, energy.
+    """Look through what `save` or a sweep left: whether it is whole, and can be right.
 
-    What is read is read record by record.  Raise StoreError where there is no cube.
+    Of a cube, of single storeys or of buildings, and of a history that is schema, CF, records, axes,
+    checksums, statuses, numbers and energy; of anything else that `save` wrote, such as a choice, CF and
+    checksums alone.  What is read is read record by record.  Raise StoreError where there is no such file.
     """
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", UserWarning)  # what is missing is found below
-        cube = open_cube(path, lazily=True)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", UserWarning)  # what is missing is found below
+            cube = open_cube(path, lazily=True)
+    except DamagedError as error:
+        yield Finding("checksums", False, str(error))
+        return
     with cube:
-        if "record" not in cube.dims:
-            raise StoreError(f"cannot check {os.fspath(path)}: it is no cube of a sweep")
-        whole = _store_checksums(path, cube) if chunks.is_store(path) else _file_checksums(cube)
-        yield _schema(cube)
-        yield _conventions(path, cube)
-        yield _records(cube)
+        whole = _guarded(
+            "checksums", _store_checksums if chunks.is_store(path) else _file_checksums, path, cube
+        )
+        registry = _registry(cube)
+        if registry is None:
+            yield Finding("schema", None, "neither cube nor history: CF and checksums alone are looked at")
+            yield _guarded("CF", _conventions, path, cube)
+            yield whole
+            return
+        yield _guarded("schema", _schema, cube, registry)
+        yield _guarded("CF", _conventions, path, cube)
+        yield _guarded("records", _records, cube)
+        yield _guarded("axes", _axes, cube)
         yield whole
         if whole.passed:
-            yield _statuses(cube)
-            yield _numbers(cube)
-            yield _energy(cube)
+            yield _guarded("statuses", _statuses, cube)
+            yield _guarded("numbers", _numbers, cube)
+            yield _guarded("energy", _energy, cube)
 
 
-def _schema(cube: xr.Dataset) -> Finding:
-    registry = BUILDING_CUBE if "building" in cube.dims else CUBE
+P = ParamSpec("P")
+
+
+def _guarded(what: str, look: Callable[P, Finding], *given: P.args, **named: P.kwargs) -> Finding:
+    """Look; what cannot be looked at, as something that it needs is missing or of another kind, fails."""
+    try:
+        return look(*given, **named)
+    except FdspecError as error:
+        return Finding(what, False, str(error))
+    except (ArithmeticError, AttributeError, LookupError, OSError, RuntimeError, TypeError, ValueError):
+        return Finding(what, False, "cannot be judged: a variable or an attribute is missing or damaged")
+
+
+def _registry(cube: xr.Dataset) -> Registry | None:
+    """Return what the dataset should hold; None where it is no cube and no history."""
+    dims = set(cube.dims)
+    if "building" in dims and "slip_scale" in dims:
+        return BUILDING_CUBE
+    if len(dims & set(STUDY_DIMS)) == len(STUDY_DIMS):
+        return CUBE
+    return HISTORY if "time" in dims and "displacement" in cube.variables else None
+
+
+def _schema(cube: xr.Dataset, registry: Registry) -> Finding:
     try:
         described = describe(cube, registry)
     except ValueError as error:
         return Finding("schema", False, str(error))
-    lacking = [str(name) for name in ("status", *cube.dims) if name not in cube.variables]
+    needed = ("status", *(dim for dim in cube.dims if dim != "transition"))
+    lacking = [str(name) for name in needed if name not in cube.variables]
     if lacking:
         return Finding("schema", False, f"there is no variable {', '.join(lacking)}")
     for name, array in described.variables.items():
@@ -76,9 +126,9 @@ def _schema(cube: xr.Dataset) -> Finding:
             if key.startswith("flag_"):
                 continue
             if key not in held or not np.array_equal(held[key], value):
-                told = f"attribute {key} of {name} is {held.get(key)!r}; it should be {value!r}"
+                told = f"attribute {key} of {name} is {held.get(key)!r:.80}; it should be {value!r}"
                 return Finding("schema", False, told)
-    known = {**STATUSES, chunks.NOT_COMPUTED: "not_computed"}
+    known = {**STATUSES, NOT_COMPUTED: "not_computed"}
     for code, meaning in meanings_of(cube).items():
         if known.get(code) != meaning:
             return Finding("schema", False, f"status {code} is {meaning}; it should be {known.get(code)}")
@@ -113,13 +163,33 @@ def _conventions(path: str | os.PathLike[str], cube: xr.Dataset) -> Finding:
 def _records(cube: xr.Dataset) -> Finding:
     """Compare the records with those in the provenance."""
     try:
-        told = {one["name"]: one["checksum"] for one in json.loads(cube.attrs["parameters"])["records"]}
-        held = dict(zip(cube["record"].values.tolist(), cube["checksum"].values.tolist(), strict=True))
+        told = records_of(parameters_of(cube.attrs) or {})
+        held = {
+            str(name): str(checksum)
+            for name, checksum in zip(
+                np.atleast_1d(cube["record"].values), np.atleast_1d(cube["checksum"].values), strict=True
+            )
+        }
     except (KeyError, ValueError, TypeError) as error:
-        return Finding("records", False, f"the provenance cannot be read ({error!r})")
+        why = error if isinstance(error, ValueError) else "a variable is missing"
+        return Finding("records", False, f"the provenance cannot be read: {why}")
     if told != held:
         return Finding("records", False, "names or checksums are not those in the attribute parameters")
     return Finding("records", True, f"{len(held)}, as in the attribute parameters")
+
+
+def _axes(cube: xr.Dataset) -> Finding:
+    """Compare the axes, bit for bit, with the provenance, and all coordinates with what they can be."""
+    try:
+        bad = [*untrue(cube)] if is_cube(cube) else []
+    except ValueError as error:
+        bad = [str(error)]
+    bad += wrong_coordinates(cube)
+    if bad:
+        return Finding("axes", False, _listed(dict.fromkeys(bad)))
+    return Finding(
+        "axes", True, "as in the attribute parameters" if is_cube(cube) else "increasing and finite"
+    )
 
 
 def _store_checksums(path: str | os.PathLike[str], cube: xr.Dataset) -> Finding:
@@ -135,60 +205,85 @@ def _store_checksums(path: str | os.PathLike[str], cube: xr.Dataset) -> Finding:
         told = f"{missing} of {len(blocks)} blocks are missing; start the sweep again to go on"
     else:
         told = f"{len(blocks)} blocks of {len(variables)} variables are whole"
+        told += "" if chunks.described_files(path) else _OLDER
     return Finding("checksums", not damaged and not missing, told)
 
 
-def _file_checksums(cube: xr.Dataset) -> Finding:
-    """Read all of a file; HDF5 compares each chunk with its checksum."""
+def _file_checksums(path: str | os.PathLike[str], cube: xr.Dataset) -> Finding:
+    """Read all of a file; HDF5 compares each chunk with its checksum, and each variable has its own."""
+    told = checksums_of(path)
     damaged = []
-    for name in cube.data_vars:
+    for name, variable in cube.variables.items():
         try:
-            for _ in _by_record(cube[name]):
-                pass
+            found = checksums.started(variable)
+            for values in _parts(variable):
+                found = checksums.of_values(values, found)
         except (OSError, RuntimeError) as error:
-            damaged.append(f"{name} ({error})")
+            if why := no_resources(error):
+                raise DiskError(f"cannot read {os.fspath(path)}: {why}") from error
+            damaged.append(str(name))
+        else:
+            if told is not None and told.get(str(name)) != f"{found:08x}":
+                damaged.append(str(name))
+    if told is not None:
+        damaged += [f"{name}, which is not there" for name in told if name and name not in cube.variables]
+        damaged += [] if told.get("") == checksums.of_dataset(cube) else ["the attributes"]
     if damaged:
-        return Finding("checksums", False, f"cannot be read: {_listed(damaged)}; write the file again")
-    return Finding("checksums", True, f"{len(cube.data_vars)} variables are whole")
+        return Finding("checksums", False, f"damaged: {_listed(damaged)}; write the file again")
+    older = _OLDER if told is None else ""
+    return Finding("checksums", True, f"{len(cube.variables)} variables are whole{older}")
+
+
+_OLDER: Final = "; written before axes and attributes had checksums, so of these nothing is known"
 
 
 def _statuses(cube: xr.Dataset) -> Finding:
     counts = status_counts(cube)
-    told = ", ".join(f"{number} {meaning}" for meaning, number in counts.items())
+    told = ", ".join(f"{number:,} {meaning}".replace(",", " ") for meaning, number in counts.items())
     return Finding("statuses", set(counts) == {"ok"}, told)
 
 
 def _numbers(cube: xr.Dataset) -> Finding:
-    """Where the status is ok, every number must be one."""
-    status = cube["status"]
+    """Where the status is ok, every number must be one that a result can be."""
+    status = cube["status"].variable
     bad = []
     for name, array in cube.data_vars.items():
-        if array.dtype.kind != "f":
+        if array.dtype.kind not in "iuf" or name == "status":
             continue
-        for values, codes in zip(_by_record(array), _by_record(status), strict=True):
-            finite = np.isfinite(values)
-            if array.dims[: status.ndim] == status.dims:
-                # What each storey has of its own has one status for all storeys.
-                finite |= (codes != 0).reshape(codes.shape + (1,) * (values.ndim - codes.ndim))
-            if not finite.all():
-                bad.append(str(name))
+        each = array.dims[: status.ndim] == status.dims
+        codes = _parts(status) if each and status.ndim else repeat(None)
+        for values, code in zip(_parts(array.variable), codes, strict=False):
+            judged = values
+            if code is not None:
+                judged = values[code == 0]  # what each storey has of its own has one status for all storeys
+            elif status.ndim == 0 and int(status) != 0:
+                continue
+            if told := wrong(str(name), judged):
+                bad.append(f"{name} is {told}")
                 break
-    told = f"not finite in {', '.join(bad)}" if bad else "finite wherever the status is ok"
-    return Finding("numbers", not bad, told)
+    return Finding(
+        "numbers", not bad, _listed(bad) if bad else "what results can be wherever the status is ok"
+    )
 
 
 def _energy(cube: xr.Dataset) -> Finding:
     if "energy_error" not in cube:
         return Finding("energy", None, "the sweep was made without the energy balance")
     worst = 0.0
-    for errors, codes in zip(_by_record(cube["energy_error"]), _by_record(cube["status"]), strict=True):
-        worst = max(worst, float(errors[codes == 0].max(initial=0.0)))
+    for errors, codes in zip(
+        _parts(cube["energy_error"].variable), _parts(cube["status"].variable), strict=True
+    ):
+        worst = max(worst, float(np.abs(errors[codes == 0]).max(initial=0.0)))
     return Finding("energy", worst <= ENERGY, f"error at most {worst:.2g} of the input, {ENERGY:g} allowed")
 
 
-def _by_record(array: xr.DataArray) -> Iterator[NDArray[Any]]:
-    for record in range(array.sizes["record"]):
-        yield array.isel(record=record).values
+def _parts(variable: xr.Variable) -> Iterator[NDArray[Any]]:
+    """Give the numbers record by record where there are records, in the order of C."""
+    if variable.dims[:1] != ("record",) or variable.ndim < 2:
+        yield np.asarray(variable.values)
+        return
+    for record in range(variable.shape[0]):
+        yield variable[record].values
 
 
 def _listed(things: Iterable[object]) -> str:

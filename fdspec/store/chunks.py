@@ -8,6 +8,7 @@ computed yet have the status "not computed".
 
 from __future__ import annotations
 
+import json
 import os
 import secrets
 import shutil
@@ -22,10 +23,13 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from fdspec.errors import DiskError, StoreError
+from fdspec.errors import BusyError, DamagedError, DiskError, StoreError
 from fdspec.store import layout
 from fdspec.store.blocks import Blocks
-from fdspec.variables import Variable
+from fdspec.store.checksums import is_whole, of_bytes
+from fdspec.store.holding import is_held
+from fdspec.store.refusals import no_resources
+from fdspec.variables import NOT_COMPUTED, Variable
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -42,16 +46,23 @@ IDENTITY: Final = "fdspec_identity"
 ORDER: Final = "fdspec_order"
 """Attribute of the store alone: its variables in their order, which a folder does not keep."""
 
-VERSION: Final = 1
+FILES: Final = "fdspec_files"
+"""Attribute of the store alone: each file that never changes -> its checksum."""
 
-NOT_COMPUTED: Final = -1
-"""Status of a cell whose block is not finished."""
+ITSELF: Final = "fdspec_checksum"
+"""Attribute of the store alone: the checksum of all that ``zarr.json`` says beside it."""
+
+VERSION: Final = 2
+"""Since 2 there are checksums of coordinates and of what describes the arrays."""
+
+ROOT: Final = "zarr.json"
+
+COPY: Final = "status/root.json"
+"""A second ``zarr.json``, in the folder of an array, where no reader of Zarr looks."""
 
 SUFFIXES: Final = (".zarr",)
 
 STATUS: Final = "status"
-
-_CHECKSUM_BYTES: Final = 4
 
 
 class State(Enum):
@@ -64,7 +75,7 @@ class State(Enum):
 
 def is_store(path: str | os.PathLike[str]) -> bool:
     """Whether there is a Zarr store at `path`, fdspec's or another's."""
-    return (Path(path) / "zarr.json").is_file()
+    return (Path(path) / ROOT).is_file() or (Path(path) / COPY).is_file()
 
 
 def create(
@@ -79,43 +90,104 @@ def create(
     frame: coordinates and attributes of the cube; variables: those along its dims; identity: what JSON can
     hold.
     """
-    import zarr
-
     target = Path(path)
     part = target.with_name(f".fdspec-{os.getpid()}-{secrets.token_hex(4)}.part")
     with written(path):
         try:
-            on_disk = _plain_text(layout.to_disk(frame.drop_encoding()))
-            on_disk.attrs |= {
-                FORMAT: VERSION,
-                BLOCKS: {"sizes": dict(blocks.sizes), "edges": dict(blocks.edges)},
-                IDENTITY: dict(identity),
-                ORDER: [*map(str, on_disk.variables), *(variable.name for variable in variables)],
-            }
-            bare = {name: {"_FillValue": None} for name in on_disk.variables}
-            on_disk.to_zarr(part, mode="w-", zarr_format=3, consolidated=False, encoding=bare)
-            group = zarr.open_group(part, mode="r+", zarr_format=3)
-            for variable in variables:
-                _create_array(group, variable, blocks)
+            _make(part, frame, variables, blocks, identity)
             part.rename(target)
         finally:
             shutil.rmtree(part, ignore_errors=True)
 
 
-def remove(path: str | os.PathLike[str]) -> None:
-    """Remove a store; under its name it is gone at once."""
+def mend(
+    path: str | os.PathLike[str],
+    frame: xr.Dataset,
+    variables: Sequence[Variable],
+    blocks: Blocks,
+    identity: Mapping[str, Any],
+) -> list[str]:
+    """Write anew what is damaged of the files that `create` made; return their names in the store.
+
+    Raise StoreError where that gives another file than the one that was there.
+    """
     target = Path(path)
+    damaged = damaged_files(target)
+    if not damaged:
+        return []
+    told = described_files(target)
+    part = target.with_name(f".fdspec-{os.getpid()}-{secrets.token_hex(4)}.part")
+    with written(path):
+        try:
+            _make(part, frame, variables, blocks, identity)
+            for name in damaged:
+                if name in {ROOT, COPY}:
+                    continue
+                if _checksum(part / name) != told[name]:
+                    raise StoreError(
+                        f"{target}: {name} is damaged for good; start over with --restart (restart=True)"
+                    )
+                clear(target / name)
+                (target / name).parent.mkdir(parents=True, exist_ok=True)
+                (part / name).replace(target / name)
+            for name, other in ((ROOT, COPY), (COPY, ROOT)):
+                if name in damaged:
+                    clear(target / name)
+                    (target / name).parent.mkdir(parents=True, exist_ok=True)
+                    shutil.copyfile(target / other, part / ROOT)
+                    (part / ROOT).replace(target / name)
+        finally:
+            shutil.rmtree(part, ignore_errors=True)
+    return damaged
+
+
+def clear(path: Path) -> None:
+    """Remove whatever stands in the place of a file."""
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path)
+    else:
+        path.unlink(missing_ok=True)
+
+
+def damaged_files(path: str | os.PathLike[str]) -> list[str]:
+    """Return the files of coordinates, and of what describes the arrays, that are not as they were made."""
+    told = described_files(path)
+    root = [name for name in (ROOT, COPY) if told and _root(Path(path, name)) is None]
+    return root + [name for name, checksum in told.items() if _checksum(Path(path, name)) != checksum]
+
+
+def described_files(path: str | os.PathLike[str]) -> dict[str, str]:
+    """Return the files that never change, and their checksums; none for a store older than these."""
+    return dict(_attributes(path).get(FILES, {}))
+
+
+def remove(path: str | os.PathLike[str]) -> None:
+    """Remove a store; under its name it is gone at once.  One that is being read is kept: BusyError."""
+    target = Path(os.path.realpath(path))
+    if is_held(target):
+        raise BusyError(f"{os.fspath(path)} is being read, by another process or this one; it is kept")
     part = target.with_name(f".fdspec-{os.getpid()}-{secrets.token_hex(4)}.part")
     with written(path):
         target.rename(part)
         shutil.rmtree(part)
 
 
+def is_ours(path: str | os.PathLike[str]) -> bool:
+    """Whether a folder is a store that fdspec made, however damaged."""
+    for name in (ROOT, COPY, f"{STATUS}/{ROOT}"):
+        file = Path(path, name)
+        with suppress(OSError):
+            if file.is_file() and (FORMAT if name != f"{STATUS}/{ROOT}" else "flag_meanings").encode() in (
+                file.read_bytes()
+            ):
+                return True
+    return False
+
+
 def described(path: str | os.PathLike[str]) -> tuple[Blocks, dict[str, Any]]:
     """Return how the cube of a store is cut, and its identity."""
     attributes = _attributes(path)
-    blocks = Blocks(**attributes[BLOCKS])
-    return blocks, attributes[IDENTITY]
+    return _blocks(attributes), attributes[IDENTITY]
 
 
 def write(
@@ -131,10 +203,15 @@ def write(
     with written(path):
         still_there(path)  # Zarr would make the folders of a store that is gone anew
         group = zarr.open_group(path, mode="r+", zarr_format=3)
-        for variable in sorted(variables, key=lambda variable: variable.name == STATUS):
-            if blocks.owns(number, variable):
-                array: Any = group[variable.name]
-                array[blocks.region(number, variable)] = values[variable.name]
+        mine = [variable for variable in variables if blocks.owns(number, variable)]
+        for variable in sorted(mine, key=lambda variable: variable.name == STATUS):
+            if variable.name == STATUS:
+                # The status says that the others are there: also after the machine has stopped.
+                for other in mine:
+                    if other.name != STATUS:
+                        _sync_chunk(path, chunk_path(path, blocks, number, other))
+            array: Any = group[variable.name]
+            array[blocks.region(number, variable)] = values[variable.name]
 
 
 def still_there(path: str | os.PathLike[str]) -> None:
@@ -172,7 +249,10 @@ def chunk_path(path: str | os.PathLike[str], blocks: Blocks, number: int, variab
 
 def unfinished(path: str | os.PathLike[str]) -> int:
     """Count the blocks whose status is not there, and so the blocks that are not finished."""
-    blocks, _ = described(path)
+    return _unfinished(path, described(path)[0])
+
+
+def _unfinished(path: str | os.PathLike[str], blocks: Blocks) -> int:
     found = sum(
         not name.endswith(".partial") for _, _, names in os.walk(Path(path) / STATUS / "c") for name in names
     )
@@ -186,13 +266,25 @@ def tidy(path: str | os.PathLike[str]) -> None:
             left.unlink()
 
 
-def open_store(path: str | os.PathLike[str]) -> xr.Dataset:
-    """Return the cube of a store; numbers are read when they are used."""
+def open_store(path: str | os.PathLike[str]) -> tuple[xr.Dataset, int, int]:
+    """Return the cube of a store, its blocks that are not finished, and all.
+
+    Numbers are read when they are used; nobody removes the store before ``close()``.
+    """
     import xarray as xr
 
-    _attributes(path)
+    from fdspec.store.checked_store import CheckedStore
+
+    if damaged := damaged_files(path):
+        told = ", ".join(damaged[:5]) + (f" and {len(damaged) - 5} more" if len(damaged) > 5 else "")
+        raise DamagedError(
+            f"cannot open {os.fspath(path)}: the store is damaged: {told}; start the sweep again to mend it"
+        )
+    attributes = _attributes(path)
+    blocks = _blocks(attributes)
+    store = CheckedStore(Path(os.path.realpath(path)))
     on_disk = xr.open_dataset(
-        path,
+        store,  # type: ignore[arg-type]
         engine="zarr",
         chunks=None,
         cache=False,
@@ -202,23 +294,20 @@ def open_store(path: str | os.PathLike[str]) -> xr.Dataset:
         consolidated=False,
         zarr_format=3,
     )
-    cube = layout.from_disk(on_disk[on_disk.attrs[ORDER]])
-    for name in (FORMAT, BLOCKS, IDENTITY, ORDER):
-        del cube.attrs[name]
+    cube = layout.from_disk(on_disk[attributes[ORDER]])
+    store.dims |= {str(name): tuple(map(str, array.dims)) for name, array in cube.data_vars.items()}
+    for name in (FORMAT, BLOCKS, IDENTITY, ORDER, FILES, ITSELF):
+        cube.attrs.pop(name, None)
     for variable in cube.variables.values():
         variable.attrs = {key: _typed(value, variable.dtype) for key, value in variable.attrs.items()}
-    if unfinished(path):
+    left = _unfinished(path, blocks)
+    if left:
         flags = cube[STATUS].attrs
         flags["flag_values"] = np.append(flags["flag_values"], np.int8(NOT_COMPUTED))
         flags["flag_meanings"] = f"{flags['flag_meanings']} not_computed"
-    return cube.drop_encoding()
-
-
-def by_blocks(path: str | os.PathLike[str]) -> Iterator[dict[str, slice]]:
-    """Give the place of every block of the store, in order."""
-    blocks, _ = described(path)
-    for number in range(len(blocks)):
-        yield blocks.slices(number)
+    cube = cube.drop_encoding()
+    cube.set_close(store.release)
+    return cube, left, len(blocks)
 
 
 @contextmanager
@@ -229,9 +318,8 @@ def written(path: str | os.PathLike[str]) -> Iterator[None]:
     except StoreError:
         raise
     except OSError as error:
-        raise DiskError(
-            f"cannot write {os.fspath(path)}: {error.strerror or error}; what is finished is kept"
-        ) from error
+        told = no_resources(error) or error.strerror or "the disk refuses it"
+        raise DiskError(f"cannot write {os.fspath(path)}: {told}; what is finished is kept") from error
 
 
 def _create_array(group: Any, variable: Variable, blocks: Blocks) -> None:
@@ -256,41 +344,147 @@ def _create_array(group: Any, variable: Variable, blocks: Blocks) -> None:
     )
 
 
-def _state(path: Path) -> State:
-    from google_crc32c import value
+def _make(
+    part: Path,
+    frame: xr.Dataset,
+    variables: Sequence[Variable],
+    blocks: Blocks,
+    identity: Mapping[str, Any],
+) -> None:
+    """Write all of a store but its blocks."""
+    import zarr
 
+    on_disk = _plain_text(layout.to_disk(frame.drop_encoding()))
+    on_disk.attrs |= {
+        FORMAT: VERSION,
+        BLOCKS: {"sizes": dict(blocks.sizes), "edges": dict(blocks.edges)},
+        IDENTITY: dict(identity),
+        ORDER: [*map(str, on_disk.variables), *(variable.name for variable in variables)],
+    }
+    bare = {name: {"_FillValue": None} for name in on_disk.variables}
+    on_disk.to_zarr(part, mode="w-", zarr_format=3, consolidated=False, encoding=bare)
+    group = zarr.open_group(part, mode="r+", zarr_format=3)
+    for variable in variables:
+        _create_array(group, variable, blocks)
+    files = sorted(file for file in part.rglob("*") if file.is_file() and file != part / ROOT)
+    root = json.loads((part / ROOT).read_bytes())
+    root["attributes"][FILES] = {file.relative_to(part).as_posix(): _checksum(file) for file in files}
+    root["attributes"][ITSELF] = _of_root(root)
+    for name in (ROOT, COPY):
+        (part / name).write_text(json.dumps(root, indent=1), encoding="utf-8")
+    for file in (*files, part / ROOT, part / COPY):
+        _sync(file)
+
+
+def _sync(file: Path) -> None:
+    """Wait until a file is on the disk."""
+    descriptor = os.open(file, os.O_RDWR)
     try:
-        content = path.read_bytes()
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def _sync_chunk(path: str | os.PathLike[str], chunk: Path) -> None:
+    try:
+        _sync(chunk)
+    except FileNotFoundError:
+        still_there(path)
+        raise
+
+
+def _checksum(file: Path) -> str | None:
+    """Return the checksum of a file, None where there is none that can be read."""
+    try:
+        if not file.is_file():  # a pipe would be waited on
+            return None
+        return f"{of_bytes(file.read_bytes()):08x}"
+    except OSError as error:
+        if told := no_resources(error):
+            raise DiskError(f"cannot read {file}: {told}") from error
+        return None
+
+
+def _of_root(root: Mapping[str, Any]) -> str:
+    attributes = {key: value for key, value in root["attributes"].items() if key != ITSELF}
+    return f"{of_bytes(json.dumps({**root, 'attributes': attributes}, sort_keys=True).encode()):08x}"
+
+
+def _state(path: Path) -> State:
+    try:
+        if not path.exists():
+            return State.MISSING
+        content = path.read_bytes() if path.is_file() else b""
     except FileNotFoundError:
         return State.MISSING
-    except OSError:
+    except OSError as error:
+        if told := no_resources(error):
+            raise DiskError(f"cannot read {path}: {told}") from error
         return State.DAMAGED
-    stored = int.from_bytes(content[-_CHECKSUM_BYTES:], "little")
-    whole = len(content) > _CHECKSUM_BYTES and value(content[:-_CHECKSUM_BYTES]) == stored
-    return State.WHOLE if whole else State.DAMAGED
+    return State.WHOLE if is_whole(content) else State.DAMAGED
+
+
+def _root(file: Path) -> dict[str, Any] | None:
+    """Return what ``zarr.json``, or its copy, says; None where it is damaged."""
+    try:
+        if not file.is_file():
+            return None
+        root = json.loads(file.read_bytes())
+        attributes = root["attributes"]
+        if attributes.get(FORMAT) != 1 and ITSELF not in attributes and FORMAT in attributes:
+            return None
+        if ITSELF in attributes and attributes[ITSELF] != _of_root(root):
+            return None
+    except (KeyError, TypeError, ValueError, AttributeError, RecursionError):
+        return None
+    except OSError as error:
+        if told := no_resources(error):
+            raise DiskError(f"cannot read {file}: {told}") from error
+        return None
+    return dict(root)
 
 
 def _attributes(path: str | os.PathLike[str]) -> dict[str, Any]:
     """Return the attributes of one of fdspec's stores."""
-    import zarr
-
-    try:
-        attributes: dict[str, Any] = zarr.open_group(path, mode="r", zarr_format=3).attrs.asdict()
-    except (OSError, ValueError, KeyError) as error:
+    found = _root(Path(path, ROOT)) or _root(Path(path, COPY))
+    if found is None:
+        if is_ours(path):
+            raise DamagedError(
+                f"cannot open {os.fspath(path)}: the store is damaged: zarr.json; start over with --restart "
+                "(restart=True)"
+            )
         raise StoreError(
-            f"cannot open {os.fspath(path)}: it is no Zarr store, or a damaged one ({error})"
-        ) from error
+            f"cannot open {os.fspath(path)}: it is no Zarr store, or one that cannot be read as one"
+        )
+    attributes: dict[str, Any] = found["attributes"]
     if not {FORMAT, BLOCKS, IDENTITY, ORDER} <= attributes.keys():
         raise StoreError(
             f"cannot open {os.fspath(path)}: it is another program's Zarr store; name one that fdspec made, "
             "or read it with xarray.open_zarr"
         )
-    if attributes[FORMAT] > VERSION:
+    version = attributes[FORMAT]
+    if isinstance(version, int) and version > VERSION:
         raise StoreError(
-            f"cannot open {os.fspath(path)}: its layout is version {attributes[FORMAT]}, this fdspec knows "
+            f"cannot open {os.fspath(path)}: its layout is version {version}, this fdspec knows "
             f"{VERSION}; upgrade fdspec"
         )
+    kinds = {FORMAT: int, BLOCKS: dict, IDENTITY: dict, ORDER: list, FILES: dict}
+    for name, kind in kinds.items():
+        if not isinstance(attributes.get(name, kind()), kind):
+            raise DamagedError(
+                f"cannot open {os.fspath(path)}: the store is damaged: {name} is no {kind.__name__}"
+            )
     return attributes
+
+
+def _blocks(attributes: Mapping[str, Any]) -> Blocks:
+    told = attributes[BLOCKS]
+    sizes, edges = told.get("sizes"), told.get("edges")
+    if not (isinstance(sizes, dict) and isinstance(edges, dict) and list(sizes) == list(edges)) or not all(
+        isinstance(one, int) and one > 0 for one in (*sizes.values(), *edges.values())
+    ):
+        raise DamagedError(f"the store is damaged: {BLOCKS} does not say how it is cut")
+    return Blocks(sizes, edges)
 
 
 def _plain_text(on_disk: xr.Dataset) -> xr.Dataset:

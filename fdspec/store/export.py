@@ -7,11 +7,12 @@ import itertools
 import os
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from fdspec.errors import StoreError
+from fdspec.store.history_csv import CSV_SUFFIXES, meaning_of, write_history
 from fdspec.store.layout import is_text
 from fdspec.store.netcdf import write_netcdf
 from fdspec.store.replacing import NETCDF_SUFFIXES, replacing
@@ -19,8 +20,6 @@ from fdspec.variables import motion_variables
 
 if TYPE_CHECKING:
     import xarray as xr
-
-CSV_SUFFIXES: Final = (".csv",)
 
 
 def export(cube: xr.Dataset, path: str | os.PathLike[str], *, record: str | None = None) -> None:
@@ -33,12 +32,14 @@ def export(cube: xr.Dataset, path: str | os.PathLike[str], *, record: str | None
 
     ``.csv``: one row a cell, one column a variable, numbers written so that they read back to the bit. Lines
     that start with ``#`` come first and give each column's unit and meaning; ``pandas.read_csv(path,
-    comment="#")`` and R's ``read.csv(path, comment.char = "#")`` pass over them.
+    comment="#")`` and R's ``read.csv(path, comment.char = "#")`` pass over them. Of a history there is a row
+    for each time, with a column for each storey; its changes of phase go into a file of their own beside it,
+    ``NAME-transitions.csv``.
 
     Parameters
     ----------
     cube : xarray.Dataset
-        What `sweep` or `sweep_buildings` returns, with or without its dim ``record``.
+        What `sweep` or `sweep_buildings` returns, with or without its dim ``record``, or `simulate`.
     path : path
         The file, in a folder that exists. It appears only when it is complete.
     record : str, optional
@@ -54,7 +55,9 @@ def export(cube: xr.Dataset, path: str | os.PathLike[str], *, record: str | None
         if not suffix:
             raise StoreError(f"cannot export to {os.fspath(path)}: the name should end in .nc or .csv")
         one = _one_record(cube, record)
-        if suffix in CSV_SUFFIXES:
+        if suffix in CSV_SUFFIXES and "time" in one.dims:
+            write_history(one, part, Path(path), list(_origin(one)))
+        elif suffix in CSV_SUFFIXES:
             _write_csv(one, part)
         else:
             write_netcdf(_without_text(one), part, path)
@@ -109,17 +112,16 @@ def _columns(one: xr.Dataset, dims: tuple[str, ...]) -> list[str]:
 
 
 def _heading(one: xr.Dataset, columns: list[str]) -> Iterator[str]:
+    yield from _origin(one)
+    for name in columns:
+        yield meaning_of(name, one[name].attrs)
+
+
+def _origin(one: xr.Dataset) -> Iterator[str]:
     yield f"record: {one['record'].item()}"
     for name in ("title", "source", "history", "comment", "parameters"):
         if name in one.attrs:
-            yield f"{name}: {one.attrs[name]}".replace("\n", " ")
-    for name in columns:
-        attrs = one[name].attrs
-        meaning = f"{name} [{attrs.get('units', '-')}] {attrs.get('long_name', '')}".rstrip()
-        if "flag_values" in attrs:
-            codes = zip(np.atleast_1d(attrs["flag_values"]), str(attrs["flag_meanings"]).split(), strict=True)
-            meaning += f" ({', '.join(f'{code} {word}' for code, word in codes)})"
-        yield meaning
+            yield f"{name}: {one.attrs[name]}".replace("\n", " ").replace("\r", " ")
 
 
 def _blocks(

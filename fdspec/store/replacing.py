@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import secrets
 import shutil
@@ -13,6 +14,7 @@ from pathlib import Path
 from typing import Final
 
 from fdspec.errors import DiskError, StoreError
+from fdspec.store.refusals import no_resources
 
 ABANDONED: Final = 86400.0
 """s after which a file that is not written to is nobody's."""
@@ -48,8 +50,34 @@ def check_writable(
         refuses: it is full or read-only, or the folder belongs to somebody else.
     """
     given = Path(path)
+    try:
+        target = _checked(given, suffixes, overwrite)
+    except (OSError, RuntimeError, ValueError) as error:  # a loop of links, a name too long, a NUL in it
+        if isinstance(error, StoreError):
+            raise
+        told = no_resources(error) or "no file can have that name"
+        raise StoreError(f"cannot write {given}: {told}") from error
+    try:
+        # Asking for permission bits is not enough: root, network and read-only file systems answer otherwise.
+        with tempfile.TemporaryFile(dir=target.parent):
+            pass
+    except OSError as error:
+        raise DiskError(
+            f"cannot write {given}: the folder {given.parent} takes no files ({_reason(error)}); "
+            "give a file in another folder"
+        ) from error
+    return target
+
+
+def _checked(given: Path, suffixes: tuple[str, ...], overwrite: bool) -> Path:
+    if given.name == "-":
+        raise StoreError("cannot write -: results go to files, not to standard output; name one")
+    if not given.is_absolute() and not _working_folder():
+        raise StoreError(f"cannot write {given}: the working folder was deleted; change to another")
     target = given.resolve()
     folder = target.parent
+    if target.is_symlink():
+        raise OSError(errno.ELOOP, "")
     if target.is_dir():
         raise StoreError(f"cannot write {given}: it is a folder; name a file, such as {given / 'cube.nc'}")
     if given.suffix and given.suffix.lower() not in suffixes:
@@ -63,16 +91,15 @@ def check_writable(
             raise StoreError(f"cannot write {given}: it is no regular file; give the name of one")
         if not os.access(target, os.W_OK):
             raise StoreError(f"cannot write {given}: the file is write-protected; give another name")
-    try:
-        # Asking for permission bits is not enough: root, network and read-only file systems answer otherwise.
-        with tempfile.TemporaryFile(dir=folder):
-            pass
-    except OSError as error:
-        raise DiskError(
-            f"cannot write {given}: the folder {given.parent} takes no files ({_reason(error)}); "
-            "give a file in another folder"
-        ) from error
     return target
+
+
+def _working_folder() -> bool:
+    try:
+        Path.cwd()
+    except OSError:
+        return False
+    return True
 
 
 @contextmanager
@@ -93,7 +120,10 @@ def replacing(
         yield part
         with part.open("rb+") as written:
             os.fsync(written.fileno())
-        part.replace(target)
+        if overwrite:
+            part.replace(target)
+        else:
+            _put_first(part, target, path)
         _sync_folder(target.parent)
     except OSError as error:
         if isinstance(error, StoreError):
@@ -101,6 +131,16 @@ def replacing(
         raise DiskError(f"cannot write {path}: {_reason(error)}") from error
     finally:
         part.unlink(missing_ok=True)
+
+
+def _put_first(part: Path, target: Path, path: str | os.PathLike[str]) -> None:
+    """Give a file its name unless somebody took that meanwhile."""
+    try:
+        os.link(part, target)
+    except FileExistsError:
+        raise StoreError(f"cannot write {path}: it exists already; remove it or allow overwriting") from None
+    except OSError:  # a file system without links
+        part.rename(check_writable(target, suffixes=(target.suffix.lower(),), overwrite=False))
 
 
 def _tidy(folder: Path) -> None:
@@ -123,4 +163,4 @@ def _sync_folder(folder: Path) -> None:
 
 
 def _reason(error: OSError) -> str:
-    return error.strerror or str(error)
+    return no_resources(error) or error.strerror or "the disk refuses it"

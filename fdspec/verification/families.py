@@ -9,6 +9,7 @@ from typing import Final, NamedTuple
 from fdspec.errors import FdspecError, InvalidInput
 from fdspec.verification import (
     closed_forms,
+    devices,
     energy,
     engines,
     fixed_step,
@@ -31,6 +32,7 @@ class Family(NamedTuple):
 
 FAMILIES: Final = (
     Family("closed-forms", closed_forms.rows),
+    Family("devices", devices.rows),
     Family("steady-states", steady_states.rows),
     Family("linear-limits", linear_limits.rows),
     Family("engines", engines.rows),
@@ -46,12 +48,14 @@ def verify(
     families: Sequence[str] | None = None,
     *,
     full: bool = False,
+    on_family: Callable[[str], None] | None = None,
     on_row: Callable[[Row], None] | None = None,
 ) -> list[Row]:
     """Run the verification cases and return their rows.
 
-    families: names of FAMILIES, all unless given; full: with the slow cases; on_row: told of each row as it
-    is there.  A case that raises one of fdspec's errors is a row that fails, with the error as its quantity.
+    families: names of FAMILIES, all unless given; full: with the slow cases; on_family: told the name of each
+    family before it is run; on_row: told of each row as it is there.  A case that raises an error of fdspec's
+    is a row that fails, with the error as its quantity.
     """
     known = {family.name: family for family in FAMILIES}
     wanted = list(known) if families is None else list(families)
@@ -60,6 +64,8 @@ def verify(
             raise InvalidInput(f"a family of cases must be one of {', '.join(known)}, got {name!r}")
     rows = []
     for name in wanted:
+        if on_family is not None:
+            on_family(name)
         for row in _guarded(known[name], full):
             rows.append(row)
             if on_row is not None:

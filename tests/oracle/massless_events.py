@@ -191,6 +191,7 @@ class Integrator:
     def run(self, ground: Array, dt: float, displacement: Array, velocity: Array, offset: Array) -> Answer:
         frame, n, answer = self.frame, self.n, self.answer
         z = np.concatenate([displacement, velocity, offset, [ground[0], 0.0, 1.0]])
+        fresh: set[int] = set()
         for i in range(n):
             if frame.spring[i] == 0.0:
                 continue
@@ -202,10 +203,10 @@ class Integrator:
             elif abs(reaction) > frame.static[i]:
                 self.release(z, i, sign)
                 answer.changes.append((0.0, i, sign))
+                fresh.add(i)
                 if frame.dashpot[i] == 0.0 and sign * rate < 0.0:
                     self.phases[i] = 0
                     answer.changes.append((0.0, i, 0))
-        fresh: set[int] = set()
         for step in range(len(ground) - 1):
             z[-3], z[-2] = ground[step], (ground[step + 1] - ground[step]) / dt
             tau = 0.0
@@ -277,7 +278,7 @@ class Integrator:
             np.maximum(peaks, np.maximum(np.abs(a), np.abs(b)), out=peaks)
             slope = rows @ pattern.matrix
             turns = (slope @ z) * (slope @ after) < 0.0
-            for i in np.nonzero(turns & (np.maximum(np.abs(a), np.abs(b)) * 1.2 > peaks))[0]:
+            for i in np.nonzero(turns)[0]:
                 c = pattern.series(z, h)
                 x = float(brentq(polyval, 0.0, 1.0, args=(c @ slope[i],), xtol=1e-15))
                 peaks[i] = max(peaks[i], abs(polyval(x, c @ rows[i])))

@@ -30,6 +30,16 @@ def test_matrix_exponential(dt, zeta):
         assert float(found.absolute_acceleration) == pytest.approx(expected[1], rel=1e-9)
 
 
+@pytest.mark.parametrize("zeta", [0.0, 0.05])
+def test_the_first_steps_of_long_periods(zeta):
+    """From rest the acceleration of a slow oscillator begins with the fifth power of the phase."""
+    motion = GroundMotion([0.0, 1.0, -0.5], 0.01, "short")
+    for period in (20.0, 70.0, 300.0):
+        spectra = elastic_spectra(motion, [period], zeta).squeeze()
+        expected = elastic_peaks(motion.acceleration, 0.01, period, zeta)
+        assert float(spectra.absolute_acceleration) == pytest.approx(expected[1], rel=1e-12)
+
+
 def test_a_real_record_at_its_samples():
     """Take samples alone from lsim: the largest is a lower bound, and close to the peak."""
     motion = load_record("FMR1")

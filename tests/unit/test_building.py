@@ -165,6 +165,11 @@ def test_single_storey_is_the_studys_frame() -> None:
         ({"stiffness_ratio": -1.0}, "stiffness_ratio must be 0 or more, not -1.0"),
         ({"damping_ratio": -0.1}, "ratio must be 0 or more"),
         ({"damping_ratio": True}, "ratio must be a number"),
+        (
+            {"damping_ratio": 5},
+            r"damping_ratio must be below 1 \(0.05 is five per cent of critical\), not 5.0; ",
+        ),
+        ({"brace_damping_ratio": 1.0}, "brace_damping_ratio must be below 1"),
     ],
 )
 def test_single_storey_refusals(changes: dict[str, float], text: str) -> None:
@@ -274,3 +279,18 @@ def test_a_full_matrix_stays_whole() -> None:
     assert not storey.any()
     assert not ground.any()
     np.testing.assert_array_equal(dense, matrix)
+
+
+def test_a_ratio_of_per_cent_is_refused_unless_asked_for() -> None:
+    for make in (
+        lambda: ModalDamping(5),
+        lambda: ModalDamping([0.05, 2.0]),
+        lambda: RayleighDamping(5, 1.0, 0.2),
+    ):
+        with pytest.raises(InvalidInput, match=r"must be below 1 .*where it is meant, say overdamped=True"):
+            make()
+    assert ModalDamping(1.5, overdamped=True).ratio == 1.5
+    assert ModalDamping([0.05, 2.0], overdamped=True).ratio == (0.05, 2.0)
+    assert RayleighDamping(1.5, 1.0, 0.2, overdamped=True).ratio == 1.5
+    frame = Building.single_storey(0.5, 4.0, 1e5, damping_ratio=1.5, brace_damping_ratio=2.0, overdamped=True)
+    assert frame.damping == ModalDamping(1.5, overdamped=True)

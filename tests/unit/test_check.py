@@ -13,7 +13,7 @@ from fdspec import store
 from fdspec.cli import main
 from fdspec.errors import StoreError
 from fdspec.store.check import check
-from tests.cubes import synthetic_cube, synthetic_history
+from tests.cubes import synthetic_cube
 from tests.unit.test_sweep import AXES, record
 
 
@@ -40,7 +40,7 @@ def failed(path: Path) -> dict[str, str]:
     return {finding.what: finding.told for finding in check(path) if finding.passed is False}
 
 
-FOUND = ("schema", "CF", "records", "checksums", "statuses", "numbers", "energy")
+FOUND = ("schema", "CF", "records", "axes", "checksums", "statuses", "numbers", "energy")
 
 
 def test_a_store_that_is_right_passes(swept: Path) -> None:
@@ -71,7 +71,10 @@ def broken(cube: xr.Dataset, what: str) -> xr.Dataset:
 
 @pytest.mark.usefixtures("quick")
 @pytest.mark.parametrize("what", ["statuses", "numbers", "energy", "records", "schema"])
-def test_what_is_wrong_is_named(cube: xr.Dataset, tmp_path: Path, what: str) -> None:
+def test_what_is_wrong_is_named(
+    cube: xr.Dataset, tmp_path: Path, what: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("fdspec.store.netcdf.with_true_parameters", lambda dataset: dataset)
     store.save(broken(cube, what), tmp_path / "cube.nc")
     assert list(failed(tmp_path / "cube.nc")) == [what]
 
@@ -131,9 +134,27 @@ def test_a_damaged_or_missing_chunk_is_found(swept: Path, tmp_path: Path) -> Non
     assert told["checksums"].startswith("1 of ")
 
 
-def test_what_is_no_cube_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    store.save(synthetic_history(), tmp_path / "history.nc")
-    assert main(["check", str(tmp_path / "history.nc")]) == 2
-    assert "it is no cube of a sweep" in capsys.readouterr().err
+@pytest.mark.usefixtures("quick")
+def test_a_history_and_a_cube_of_buildings_are_looked_through(tmp_path: Path) -> None:
+    frame = fdspec.Building.single_storey(period=0.5, stiffness_ratio=4, slip_force=10e3)
+    motion = record("a", samples=60)
+    store.save(fdspec.simulate(frame, motion), tmp_path / "history.nc")
+    swept = fdspec.sweep_buildings(motion, {"b": frame}, slip_scale=[0.5, 1.0], stiffness_scale=1.0)
+    store.save(swept, tmp_path / "buildings.nc")
+    for name in ("history.nc", "buildings.nc"):
+        found = [(finding.what, finding.passed) for finding in check(tmp_path / name)]
+        assert found == [(what, None if what == "CF" else True) for what in FOUND]
+    store.save(swept.assign(peak_drift=-swept.peak_drift), tmp_path / "buildings.nc")
+    assert failed(tmp_path / "buildings.nc") == {"numbers": "peak_drift is negative somewhere"}
+
+
+@pytest.mark.usefixtures("quick")
+def test_of_anything_else_the_checksums_are_compared(tmp_path: Path) -> None:
+    store.save(xr.Dataset({"a": ("x", [1.0])}), tmp_path / "a.nc")
+    found = {finding.what: finding.passed for finding in check(tmp_path / "a.nc")}
+    assert found == {"schema": None, "CF": None, "checksums": True}
+
+
+def test_what_is_no_file_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", str(tmp_path / "none.nc")]) == 2
     assert "there is no such file" in capsys.readouterr().err

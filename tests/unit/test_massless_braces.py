@@ -115,11 +115,11 @@ def test_a_dashpot_slides_with_what_is_beyond_friction_over_its_damping() -> Non
     outputs = 101
     course = integrate_many_storeys(building, motion, Span(0, 0.001, outputs), start)
     t = np.linspace(0.0, 0.1, outputs)
-    # c v = 20 kN is beyond F at once: e' = (F - k e) / c from e = 0.
+    # c v = 20 kN is beyond F at once: e' = (F - k e) / c from e = 0. Friction hardly slows the floor.
     stretch = force / spring * (1.0 - np.exp(-spring / dashpot * t))
-    slipped = speed * t - stretch
+    slipped = speed * t - 0.5 * force / mass * t**2 - stretch
     np.testing.assert_allclose(course.slip_travel[:, 0], slipped, rtol=0.0, atol=1e-13)
-    rate = speed - force / dashpot * np.exp(-spring / dashpot * t)
+    rate = speed - force / mass * t - force / dashpot * np.exp(-spring / dashpot * t)
     np.testing.assert_allclose(
         course.velocity[:, 0] - course.brace_velocity[:, 0], rate, rtol=0.0, atol=1e-12
     )
@@ -130,8 +130,8 @@ def test_a_dashpot_slides_with_what_is_beyond_friction_over_its_damping() -> Non
 @pytest.mark.parametrize("dashpot", [0.0, 2e3, [0.0, 2e3], 1e-3], ids=str)
 def test_without_friction_a_massless_brace_carries_nothing_that_lasts(dashpot: object) -> None:
     """And the mirrored start gives the mirrored answer, distances slipped included."""
-    building = Building(2e4, 8e6, 0.0, 5e6, 0.0, damping=ModalDamping(0.02), brace_damping=dashpot)
-    bare = run(Building(2e4, 8e6, 0.0, 0.0, 0.0, damping=ModalDamping(0.02)), STILL, held_up(0.01, 0.0))
+    building = Building([2e4] * 2, 8e6, 0.0, 5e6, 0.0, damping=ModalDamping(0.02), brace_damping=dashpot)
+    bare = run(Building([2e4] * 2, 8e6, 0.0, 0.0, 0.0, damping=ModalDamping(0.02)), STILL, held_up(0.01, 0.0))
     one, other = (run(building, STILL, held_up(sign * 0.01, 0.0)) for sign in (1.0, -1.0))
     assert one.energy_error < 1e-12
     assert one.transition_time.size == other.transition_time.size == 0
@@ -169,13 +169,14 @@ def test_a_release_above_is_felt_by_a_brace_with_mass_below(seed: int) -> None:
     assert apart(one, other) < 1e-10
 
 
-def test_a_hundred_and_fifty_random_frames() -> None:
-    assert faults(range(150)) == []
+def test_eighty_random_frames() -> None:
+    assert faults(range(80)) == []
 
 
 @pytest.mark.slow
-def test_ten_thousand_random_frames() -> None:
-    assert faults(range(150, 10_150)) == []
+@pytest.mark.parametrize("part", range(5))
+def test_ten_thousand_random_frames(part: int) -> None:
+    assert faults(range(2000 * part, 2000 * (part + 1))) == []
 
 
 def faults(seeds: range) -> list[str]:
@@ -205,11 +206,10 @@ def faults(seeds: range) -> list[str]:
 def test_a_balance_that_does_not_close_is_a_status() -> None:
     """A step far beyond what its series can bear stands for a rule that went wrong."""
     building = Building([2e4] * 3, 8e6, 0.0, 16e6, 40e3, damping=ModalDamping(0.02))
-    t = np.arange(401) * 0.01
-    wrong = run(building, GroundMotion(5.0 * np.sin(12.0 * t), 0.01), radians=60.0)
-    if wrong.status != 2:
-        assert wrong.energy_error > ENERGY_TOLERANCE
-        assert wrong.status == ENERGY_NOT_CLOSED
+    wrong = run(building, GroundMotion([0.0, 3.0, -2.0, 0.0], 2.0), radians=1000.0)
+    assert np.isfinite(wrong.peak_displacement).all()
+    assert wrong.energy_error > ENERGY_TOLERANCE
+    assert wrong.status == ENERGY_NOT_CLOSED
     assert STATUS_MEANINGS[ENERGY_NOT_CLOSED] == "energy_not_closed"
 
 
@@ -228,7 +228,7 @@ def test_work_is_estimated_before_a_history_starts() -> None:
 
     def two(**changes: object) -> Building:
         given = {"brace_mass": 50.0, "brace_stiffness": 16e6, "brace_damping": None, **changes}
-        return Building(2e4, 8e6, slip_force=40e3, damping=ModalDamping(0.02), **given)  # type: ignore[arg-type]
+        return Building([2e4] * 2, 8e6, slip_force=40e3, damping=ModalDamping(0.02), **given)  # type: ignore[arg-type]
 
     usual = estimated_steps(two(), motion, 0.0)
     assert 2000 <= usual < 20_000

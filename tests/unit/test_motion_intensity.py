@@ -51,6 +51,26 @@ def test_significant_duration_of_a_constant():
     assert arias_time(constant, 1.0) == pytest.approx(10.0, rel=1e-15)
 
 
+def test_peaks_between_samples_count():
+    """From rest under a = 2 - 4 t, v = 2 t - 2 t^2 is largest at 0.5 s, where there is no sample."""
+    assert intensity(GroundMotion([2.0, -2.0], 1.0)).pgv == pytest.approx(0.5, rel=1e-15)
+    coarse = GroundMotion([2.0, -2.0, -2.0, 3.0, 1.0, -4.0, 0.5], 1.0)
+    fine = GroundMotion(np.interp(np.arange(60_001) / 1e4, coarse.time, coarse.acceleration), 1e-4)
+    assert intensity(coarse).pgv == pytest.approx(np.abs(velocity(fine)).max(), rel=1e-7)
+    assert intensity(coarse).pgd == pytest.approx(np.abs(displacement(fine)).max(), rel=1e-7)
+    # v = 1 - 1.25 t^2 after the first second: the displacement turns within the next.
+    swing = GroundMotion([2.0, 0.0, -2.5, -2.5], 1.0)
+    fine = GroundMotion(np.interp(np.arange(30_001) / 1e4, swing.time, swing.acceleration), 1e-4)
+    assert intensity(swing).pgd == pytest.approx(np.abs(displacement(fine)).max(), rel=1e-7)
+    assert intensity(swing).pgd > np.abs(displacement(swing)).max()
+
+
+def test_all_of_the_arias_intensity_has_arrived_where_the_shaking_ends():
+    quiet = GroundMotion(np.concatenate([np.zeros(5), np.ones(11), np.zeros(50)]), 0.1)
+    assert arias_time(quiet, 1.0) == pytest.approx(1.6, rel=1e-12)
+    assert arias_time(quiet, 0.0) == 0.0
+
+
 def test_refusals():
     with pytest.raises(InvalidInput, match="share must be from 0 to 1, not 1.5"):
         arias_time(RAMP, 1.5)

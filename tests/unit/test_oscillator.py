@@ -12,12 +12,10 @@ from numpy.typing import NDArray
 from scipy.linalg import expm
 
 from fdspec.kernels.mathematics.oscillator import (
-    MOST,
     SHORT_ANGLE,
     TERMS,
     advance,
     ahead,
-    ahead_in_lane,
     area,
     expand,
     rate_bound,
@@ -85,12 +83,6 @@ def test_sine_and_cosine_are_those_of_the_library(angle: float) -> None:
     sine, cosine = sine_cosine(angle)
     assert abs(sine - math.sin(angle)) <= 2.0**-52 * angle
     assert abs(cosine - math.cos(angle)) <= 2.0**-52
-
-
-@pytest.mark.parametrize("order", range(4, MOST + 1))
-@given(*[st.floats(-2.0, 2.0)] * 4)
-def test_a_lane_sums_the_same_series(order: int, x: float, v: float, p0: float, p1: float) -> None:
-    assert ahead_in_lane(x, v, 0.9, 36.0, p0, p1, 0.1, order) == ahead(x, v, 0.9, 36.0, p0, p1, 0.1, order)
 
 
 @pytest.mark.parametrize(("g", "w2", "h"), OSCILLATORS)

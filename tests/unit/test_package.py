@@ -1,7 +1,10 @@
 """The front door: a dozen names, cheap to import, and functions where modules share the name."""
 
+import ast
+import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -43,3 +46,46 @@ def test_unknown_name_raises_attribute_error() -> None:
 def test_function_wins_over_module_of_the_same_name(name: str, first: str) -> None:
     kind = run(f"{first.format(name)}; import fdspec; print(type(fdspec.{name}).__name__)")
     assert kind == "function"
+
+
+def promised() -> list[str]:
+    """Every name that the page of the Python interface documents."""
+    text = (Path(__file__).parents[2] / "docs/api.md").read_text(encoding="utf-8")
+    return re.findall(r"^\.\. auto(?:function|class|module):: (\S+)", text, re.MULTILINE)
+
+
+def test_import_fdspec_alone_reaches_every_documented_name() -> None:
+    names = promised()
+    assert len(names) > 60
+    code = f"import fdspec\nfor name in {names}:\n    eval(name)\nprint(fdspec.sweep, fdspec.RecordError)"
+    assert run(code).startswith("<function sweep at")
+
+
+def test_type_checkers_are_told_the_same_names() -> None:
+    told = re.findall(r"import (\w+) as \1\b", Path(fdspec.__file__).read_text(encoding="utf-8"))
+    assert sorted(told) == sorted(set(fdspec.__all__) - {"__version__"})
+
+
+def test_a_module_that_needs_what_is_missing_says_what() -> None:
+    code = (
+        "import sys, fdspec\nsys.modules['tornado'] = None\n"
+        "try:\n    fdspec.explore\nexcept ModuleNotFoundError as error:\n    print(error.name)"
+    )
+    assert run(code).startswith("tornado")
+
+
+@pytest.mark.parametrize(
+    "path", sorted((Path(__file__).parents[2] / "notebooks").glob("*.py")), ids=lambda p: p.stem
+)
+def test_a_notebook_needs_no_ipython_as_a_script(path: Path) -> None:
+    """Its imports, run by a Python that has none."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    imports = [
+        node
+        for node in tree.body
+        if isinstance(node, ast.Import | ast.ImportFrom)
+        or (isinstance(node, ast.Try) and "Error" in ast.unparse(node))
+    ]
+    lines = "\n".join(ast.unparse(node) for node in imports)
+    run(f"import sys, matplotlib\nmatplotlib.use('agg')\nsys.modules['IPython'] = None\n{lines}")
+    assert not {"get_ipython", "IPython"} & {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}

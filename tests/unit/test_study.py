@@ -1,5 +1,6 @@
 """Study files: what they may say, how they say it, and the line of every mistake."""
 
+import time
 from pathlib import Path
 
 import numpy as np
@@ -243,3 +244,57 @@ def test_every_record_that_cannot_be_used_is_told(tmp_path: Path) -> None:
     wrong_name, no_file = str(caught.value).splitlines()
     assert "FSR1" in wrong_name
     assert "none.AT2" in no_file
+
+
+MANY = "9" * 400
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("period = " + "[" * 3000 + "1" + "]" * 3000, "lists or tables stand in one another too deeply"),
+        ("period = " + "[" * 90 + "1" + "]" * 90, "line 1: period: must be a list of numbers"),
+        (
+            "records = [" + "{path=" * 99 + '"a"' + "}" * 99 + "]",
+            "line 1: records: path of a record must be a s",
+        ),
+        (f"floor_mass = {MANY}", "line 1: floor_mass: must be a number, got 999"),
+        (f"floor_mass = {MANY * 20}", "has a number of too many digits"),
+        (f"period = [{MANY}]", "line 1: period: must be a list of numbers, got [999"),
+        (
+            f"period = {{ start = {MANY}, stop = 1, num = 3 }}",
+            "period: start must be a finite number, got 999",
+        ),
+        (f"period = {{ start = 1, stop = 2, num = {MANY} }}", "period: num must be a finite number, got 999"),
+        (
+            f'records = [{{ path = "a", dt = {MANY} }}]',
+            "records: dt of a record must be positive seconds, got 999",
+        ),
+    ],
+)
+def test_odd_depths_and_numbers_are_a_short_line(text: str, sentence: str) -> None:
+    with pytest.raises(StudyError) as caught:
+        Study.parse(text)
+    assert sentence in str(caught.value)
+    assert len(str(caught.value)) < 300
+
+
+def test_unknown_records_are_told_with_the_other_mistakes(tmp_path: Path) -> None:
+    (tmp_path / "there.at2").touch()
+    (tmp_path / "s.toml").write_text(
+        'records = ["FSR1", "FSR99",\n  "there.at2", { path = "gone.at2" }]\nperiods = [1.0]\n',
+        encoding="utf-8",
+    )
+    with pytest.raises(StudyError) as caught:
+        Study.read(tmp_path / "s.toml")
+    first, second, third = str(caught.value).splitlines()
+    assert "FSR99" in first
+    assert f"there is no file {tmp_path / 'gone.at2'}" in second
+    assert "periods: is not a field of a study; did you mean period?" in third
+
+
+def test_a_hundred_thousand_records_are_read_in_seconds() -> None:
+    names = ", ".join(f'"r{k}.at2"' for k in range(100_000))
+    began = time.process_time()
+    assert len(Study.parse(f"records = [{names}]").records) == 100_000
+    assert time.process_time() - began < 5.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -140,3 +141,15 @@ def test_motions_must_be_motions_of_different_names() -> None:
         fdspec.sweep([], **AXES)
     with pytest.raises(InvalidInput, match=r"motions\[0\] must be a GroundMotion"):
         fdspec.sweep([np.zeros(5)], **AXES)  # type: ignore[list-item]
+
+
+def test_the_cost_is_measured_with_the_braces_there_are() -> None:
+    from fdspec.model.grid import Grid
+    from fdspec.runs.sweep import measured
+
+    motion = fdspec.load_record("FSR1")
+    heavy = Grid(stiffness_ratio=[4.0], pretension=[10e3, 50e3], period=[0.05, 0.5])  # type: ignore[arg-type]
+    light = replace(heavy, brace_mass=1e-4)
+    # Its frequency is 700 times as high, and so are the changes of phase that it can make.
+    assert measured([motion], light) > 20 * measured([motion], heavy)
+    assert measured([motion] * 3, light) > measured([motion], light)

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import psutil
 import pytest
 import xarray as xr
 
@@ -68,26 +69,27 @@ def two() -> Iterator[Any]:
 class Network:
     """A scheduler and two workers, each a process of its own, over TCP."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, workers: int) -> None:
         self.folder = folder
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             self.port = free.getsockname()[1]
         self.address = f"tcp://127.0.0.1:{self.port}"
         self.scheduler = self.start_scheduler()
-        self.workers = [self.start_worker(), self.start_worker()]
+        self.workers = [self.start_worker() for _ in range(workers)]
 
     def start_scheduler(self) -> subprocess.Popen[bytes]:
-        return self._start("dask_scheduler", "--host", "127.0.0.1", "--port", str(self.port))
+        return self._dask("scheduler", "--host", "127.0.0.1", "--port", str(self.port))
 
     def start_worker(self) -> subprocess.Popen[bytes]:
-        return self._start(
-            "dask_worker", self.address, "--nthreads", "1", "--local-directory", str(self.folder)
-        )
+        return self._dask("worker", self.address, "--nthreads", "1", "--local-directory", str(self.folder))
 
-    def _start(self, module: str, *arguments: str) -> subprocess.Popen[bytes]:
+    def _dask(self, what: str, *arguments: str) -> subprocess.Popen[bytes]:
+        return self.start("-m", f"distributed.cli.dask_{what}", "--no-dashboard", *arguments)
+
+    def start(self, *arguments: str) -> subprocess.Popen[bytes]:
         return subprocess.Popen(
-            [sys.executable, "-m", f"distributed.cli.{module}", "--no-dashboard", *arguments],
+            [sys.executable, *arguments],
             env={**os.environ, "PYTHONPATH": str(ROOT)},
             stderr=subprocess.DEVNULL,
             start_new_session=True,
@@ -101,8 +103,8 @@ class Network:
 
 
 @contextmanager
-def network(folder: Path) -> Iterator[Network]:
-    made = Network(folder)
+def network(folder: Path, workers: int = 2) -> Iterator[Network]:
+    made = Network(folder, workers)
     try:
         yield made
     finally:
@@ -235,6 +237,110 @@ def test_nobody_at_the_address(monkeypatch: pytest.MonkeyPatch) -> None:
     nobody = cluster.connected("tcp://127.0.0.1:1")
     with pytest.raises(ClusterError, match=r"there is no scheduler at tcp://127\.0\.0\.1:1:"), nobody:
         pass
+
+
+def listening(process: psutil.Process) -> set[str]:
+    """Addresses at which a process takes connections."""
+    return {at.laddr.ip for at in process.net_connections("inet") if at.status == psutil.CONN_LISTEN}
+
+
+def test_processes_listen_to_this_machine_alone(two: Any) -> None:
+    here = psutil.Process()
+    addresses = [listening(process) for process in (here, *here.children(recursive=True))]
+    assert set().union(*addresses) == {"127.0.0.1"}
+    assert len([found for found in addresses if found]) >= 3  # the scheduler and two workers
+
+
+def test_only_who_holds_the_key_can_use_the_scheduler(two: Any) -> None:
+    from distributed import Client
+
+    assert two.scheduler.address.startswith("tls://")
+    with pytest.raises((OSError, TypeError)):
+        Client(two.scheduler.address.replace("tls://", "tcp://"), timeout=2, set_as_default=False)
+
+
+def test_a_cluster_without_workers_is_told(
+    tmp_path: Path, motions: list[fdspec.GroundMotion], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(cluster, "PATIENCE", 1.0)
+    with (
+        network(tmp_path, workers=0) as made,
+        cluster.connected(made.address) as client,
+        pytest.raises(ClusterError, match="no worker took a task within 1 s; start workers"),
+    ):
+        fdspec.sweep(motions, **AXES, client=client)
+
+
+def test_a_worker_without_fdspec_is_named(tmp_path: Path, motions: list[fdspec.GroundMotion]) -> None:
+    with network(tmp_path, workers=0) as made, cluster.connected(made.address) as client:
+        lacking = (
+            "import sys; sys.modules['fdspec'] = None; from distributed.cli.dask_worker import main; main()"
+        )
+        made.workers = [
+            made.start("-c", lacking, made.address, "--no-nanny", "--local-directory", str(tmp_path))
+        ]
+        with pytest.raises(
+            ClusterError, match=r"worker tcp://.* cannot load fdspec \(No module named 'fdspec"
+        ):
+            fdspec.sweep(motions, **AXES, client=client)
+
+
+@pytest.mark.slow
+def test_a_cluster_whose_workers_are_gone_for_good_is_told(
+    tmp_path: Path, motions: list[fdspec.GroundMotion], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(cluster, "PATIENCE", 5.0)
+    monkeypatch.setattr(cluster, "SILENCE", 1.0)
+    store = tmp_path / "cube.zarr"
+    with network(tmp_path) as made, cluster.connected(made.address) as client:
+
+        def kill() -> None:
+            for worker in made.workers:
+                os.killpg(worker.pid, signal.SIGKILL)
+
+        with (
+            when(some_finished(store), kill),
+            pytest.raises(ClusterError, match="the cluster has had no workers for 5 s"),
+        ):
+            fdspec.sweep(motions, **AXES, client=client, store=store, columns_per_task=1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("where", [("--workers", "2"), ("--threads", "2")])
+@pytest.mark.parametrize(
+    ("number", "code", "said"),
+    [(signal.SIGINT, 130, "fdspec: interrupted"), (signal.SIGTERM, 143, "fdspec: stopped by SIGTERM")],
+)
+def test_a_signal_to_all_its_processes_is_one_line(
+    tmp_path: Path, where: tuple[str, ...], number: int, code: int, said: str
+) -> None:
+    """As a terminal sends Ctrl-C, and Slurm SIGTERM."""
+    (tmp_path / "long.toml").write_text(
+        "period = { start = 0.05, stop = 3, num = 400 }\n"
+        "pretension = { start = 1e4, stop = 1e6, num = 100 }\n",
+        encoding="utf-8",
+    )
+    command = [sys.executable, "-m", "fdspec", "sweep", "long.toml", "-o", "long.zarr", *where]
+    process = subprocess.Popen(
+        command,
+        cwd=tmp_path,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )
+    try:
+        while not some_finished(tmp_path / "long.zarr")():
+            assert process.poll() is None
+            time.sleep(0.05)
+        os.killpg(process.pid, number)
+        _, err = process.communicate(timeout=60)
+    finally:
+        process.kill()
+    kept = "fdspec: long.zarr keeps what is finished; the same command goes on from there"
+    assert [line for line in err.splitlines() if line] == [kept, said]
+    assert process.returncode == code
+    assert {path.name for path in tmp_path.iterdir()} == {"long.toml", "long.zarr"}
 
 
 @pytest.mark.slow

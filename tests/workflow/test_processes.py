@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import multiprocessing
+
 import numpy as np
 import pytest
 import xarray as xr
 
 import fdspec
+import fdspec.errors
 
 
 def motion() -> fdspec.GroundMotion:
@@ -46,3 +49,25 @@ def test_processes_give_the_bits_of_threads(swept) -> None:
     threads, processes = swept("threads"), swept("processes")
     assert int(threads.transitions.sum()) > 10
     assert processes.drop_attrs(deep=False).identical(threads.drop_attrs(deep=False))
+
+
+def peak(scheduler: str) -> float:
+    return float(frames(scheduler).peak_acceleration.max())
+
+
+def answered(scheduler: str) -> object:
+    """Give what a sweep says in a forked process, the answer or the error."""
+    try:
+        return peak(scheduler)
+    except fdspec.errors.InvalidInput as error:
+        return str(error)
+
+
+@pytest.mark.skipif("fork" not in multiprocessing.get_all_start_methods(), reason="no fork here")
+@pytest.mark.filterwarnings("ignore:.*use of fork:DeprecationWarning")
+def test_a_forked_child_sweeps_after_its_parent() -> None:
+    expected = peak("threads")
+    with multiprocessing.get_context("fork").Pool(1) as pool:
+        told = pool.map_async(answered, ["threads", "synchronous", "processes"], chunksize=1).get(60)
+    assert told[:2] == [expected, expected]
+    assert told[2].startswith("a process of a multiprocessing.Pool can start no processes")

@@ -11,24 +11,21 @@ from typing import Final
 import numpy as np
 from numba import types
 
-from fdspec.compiler.options import entry, float1d, float2d, ground1d, inner, int1d
+from fdspec.compiler.options import entry, float1d, float2d, ground1d, int1d
 from fdspec.kernels.batch.deferred_peaks import N_CREST, QUANTITIES, keep_crests, settle_crests
 from fdspec.kernels.batch.layout import (
     HELD,
     N_ROWS,
-    SWIFT,
     WIDTH,
     is_calm,
     put_lane,
     put_state,
     rest_lane,
-    slipping_lanes,
     start_lane,
     take_state,
 )
 from fdspec.kernels.batch.shelf import put_numbers, put_plan, take_plan
 from fdspec.kernels.batch.uneventful import loss_lanes, slip_lanes, stick_lanes
-from fdspec.kernels.batch.walk_lanes import walk_lanes
 from fdspec.kernels.mathematics.oscillator import TERMS, step_map
 from fdspec.kernels.storey.constants import plan, steps_per_sample
 from fdspec.kernels.storey.energy import N_FORMS, put_losses
@@ -60,16 +57,6 @@ def prepare(storeys, dt, radians, certify, parts, shelf, forms, stride):
             put_losses(scheme, forms[i])
 
 
-@inner
-def size_of(lanes):
-    """Number of lanes in a set."""
-    size = 0
-    while lanes != 0:
-        lanes &= lanes - 1
-        size += 1
-    return size
-
-
 @entry(
     types.void(
         float2d,
@@ -79,17 +66,15 @@ def size_of(lanes):
         types.float64,
         types.int64,
         types.boolean,
-        types.int64,
         float2d,
         float1d,
     )
 )
-def run_lanes(shelf, forms, stride, ground, dt, parts, certify, crowd, results, held):
+def run_lanes(shelf, forms, stride, ground, dt, parts, certify, results, held):
     """Integrate up to WIDTH histories from rest.
 
     shelf, forms, stride: their rows from `prepare`; parts: the steps a sample that all of them take.
-    certify: whether the balance of all energies is wanted; crowd: how many lanes that change phase on the
-    same step are walked side by side.
+    certify: whether the balance of all energies is wanted.
     Filled: results (count, len(RESULTS)); held (count,), the largest reaction (N) for which the bounds
     leave room while the storey never slips.
     """
@@ -104,7 +89,6 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, crowd, results, 
     floor, brace, search = np.empty(TERMS), np.empty(TERMS), np.empty(TERMS)
     times, phases, traces = np.empty(0), np.empty(0, np.int64), np.empty((0, 0))
     slipping = 0
-    swift = 0
     for lane in range(WIDTH):
         i = min(lane, count - 1)
         put_lane(p, lane, take_plan(shelf, i), shelf[i], forms[i], stride[i], certify)
@@ -113,7 +97,6 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, crowd, results, 
             rest_lane(p, lane)
         elif p[PHASE * WIDTH + lane] != STICK:
             slipping += 1
-        swift |= 1 << lane if p[SWIFT * WIDTH + lane] != 0.0 else 0
     step = dt / parts
     for i in range(ground.size - 1):
         rate = (ground[i + 1] - ground[i]) / dt
@@ -131,12 +114,6 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, crowd, results, 
                 loss_lanes(p, start, rate, to_walk)
             if to_walk | to_keep == 0:
                 continue
-            together = to_walk & swift
-            if not certify and size_of(together) >= crowd:
-                slipping -= size_of(slipping_lanes(p) & together)
-                back = walk_lanes(p, start, rate, together, shelf, floor, brace, search)
-                to_walk &= back | ~together
-                slipping += size_of(slipping_lanes(p) & together)
             for lane in range(count):
                 if to_keep >> lane & 1:
                     keep_crests(p, lane, take_plan(shelf, lane), crests, start, rate, floor, search)

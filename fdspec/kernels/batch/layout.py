@@ -10,11 +10,10 @@ from __future__ import annotations
 
 import math
 
-from fdspec.compiler.options import inlined, inner, wide
-from fdspec.kernels.batch.shelf import N_SHELF, STICK_MAP
-from fdspec.kernels.mathematics.oscillator import MOST
+from fdspec.compiler.options import inlined, inner
+from fdspec.kernels.batch.shelf import STICK_MAP
 from fdspec.kernels.mathematics.polynomial_roots import TAIL
-from fdspec.kernels.storey.constants import is_swift
+from fdspec.kernels.storey.constants import is_slow
 from fdspec.kernels.storey.energy import STICK_FORM, STRIDE_FORM
 from fdspec.kernels.types import (
     KICK,
@@ -57,20 +56,7 @@ _AT += 8
 S_MAP, F_MAP, B_MAP, S_LOSS, F_LOSS = _AT, _AT + 12, _AT + 24, _AT + 36, _AT + 46
 _AT += 56
 S_DAMP, F_DAMP = _AT, _AT + 1
-_AT += 2
-# The whole plan, for lanes that change phase; and whether one may be walked beside others.
-PLAN, SWIFT = _AT, _AT + N_SHELF
-_AT += N_SHELF + 1
-# A state on its way through such a step: time, pieces so far and whether all were whole, whether it is calm.
-WAY = _AT
-_AT += N_STATE
-TAU, PART, WHOLE, CALM, ON_WAY = range(_AT, _AT + 5)
-_AT += 5
-# Its piece: length, ground acceleration, forces, motion at its end with integrals, verdict and crossing.
-LENGTH, GROUND, FORCE_P, FORCE_B, END_U, END_V, END_D, END_E, SWEPT, SWUNG = range(_AT, _AT + 10)
-_AT += 10
-CROSSING, SIDE, TRIAL, LOW, HIGH, SEEKS, BEGIN, BEGIN_RISE, FINISH, FINISH_RISE, SHARE = range(_AT, _AT + 11)
-N_ROWS = _AT + 11
+N_ROWS = _AT + 2
 
 
 @inlined
@@ -111,9 +97,9 @@ def put_lane(p, lane, plan, shelf, forms, stride, certify):
     p[FLOOR_MASS * WIDTH + lane] = storey.floor_mass
     p[BRACE_MASS * WIDTH + lane] = storey.brace_mass
     p[LIGHT * WIDTH + lane] = 1.0 / plan.mass
-    # A loose brace has no quasi-static motion; a damped one's losses are not tallied a step at a time.
-    loose = massive and storey.brace_stiffness == 0.0
-    p[MUST_WALK * WIDTH + lane] = 1.0 if loose or (certify and storey.brace_damping > 0.0) else 0.0
+    # A slow brace's quasi-static motion says nothing; a damped one's losses are not tallied a step at a time.
+    slow = massive and is_slow(plan)
+    p[MUST_WALK * WIDTH + lane] = 1.0 if slow or (certify and storey.brace_damping > 0.0) else 0.0
     put_branch(p, S_G, lane, plan.stick, plan.step)
     put_branch(p, F_G, lane, plan.floor, plan.step)
     tail_u, tail_v = at(p, S_TAIL_U, lane), at(p, S_TAIL_V, lane)
@@ -138,10 +124,6 @@ def put_lane(p, lane, plan, shelf, forms, stride, certify):
         p[(S_MAP + k) * WIDTH + lane] = shelf[STICK_MAP + k]
         p[(F_MAP + k) * WIDTH + lane] = stride[k]
         p[(B_MAP + k) * WIDTH + lane] = stride[12 + k]
-    in_lanes = is_swift(plan) and storey.slip_force > 0.0 and max(plan.stick_order, plan.floor_order) <= MOST
-    p[SWIFT * WIDTH + lane] = 1.0 if in_lanes else 0.0
-    for k in range(N_SHELF):
-        p[(PLAN + k) * WIDTH + lane] = shelf[k]
     for k in range(10):
         double = 1.0 if k in (0, 4, 7, 9) else 2.0  # off the diagonal of the quadratic form
         p[(S_LOSS + k) * WIDTH + lane] = forms[STICK_FORM + k] * double
@@ -181,16 +163,6 @@ def take_state(p, lane, s):
     if s[PHASE] == STICK:
         s[D] = s[U] - s[OFFSET]
         s[E] = s[V]
-
-
-@inner
-def slipping_lanes(p):
-    """The set of lanes that slip, a bit for each."""
-    wide()
-    lanes = 0
-    for lane in range(WIDTH):
-        lanes |= (1 << lane) if at(p, PHASE, lane) != 0.0 else 0
-    return lanes
 
 
 @inlined

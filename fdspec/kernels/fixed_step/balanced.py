@@ -19,8 +19,7 @@ import math
 from numba import types
 
 from fdspec.compiler.options import entry, float1d, float2d, inner
-from fdspec.kernels.fixed_step.newmark import ITERATION_NOT_CONVERGED
-from fdspec.kernels.types import NON_FINITE_STATE, OK, STICK
+from fdspec.kernels.types import ITERATION_NOT_CONVERGED, NON_FINITE_STATE, OK, STICK
 
 HELD, OFFSET = 0, 1
 """What w is."""

@@ -14,10 +14,7 @@ import numpy as np
 from numba import types
 
 from fdspec.compiler.options import entry, float1d, float2d, float3d, inlined, inner, int1d
-from fdspec.kernels.types import NON_FINITE_STATE, OK, STICK
-
-ITERATION_NOT_CONVERGED = 3
-"""Status beyond those of `fdspec.kernels.types`: a step's accelerations or forces did not settle."""
+from fdspec.kernels.types import ITERATION_NOT_CONVERGED, NON_FINITE_STATE, OK, STICK
 
 MOST_ITERATIONS = 1000
 """Of one loop of one step; where the scheme settles at all it takes two or three."""

@@ -52,7 +52,7 @@ def search(
     n,
     h,
     at,
-    soon,
+    radian,
     ground,
     rise,
     c,
@@ -66,7 +66,7 @@ def search(
     direction touching[i], as many of its distance to the limit.  A massless brace that has just stuck is
     known to carry kinetic friction, so the first of them is the difference to static friction.
 
-    at: time at the start, s; soon: time (s) within which changes of one storey are not told apart, see
+    at: time at the start, s; radian: time (s) in which a storey makes no more than a few changes, see
     :func:`fdspec.kernels.frame.reset.patience`.
     """
     first = NO_ROOT
@@ -76,8 +76,8 @@ def search(
             continue
         held = 0.0
         gap = 0.0
-        if kind[i] == MASSLESS:
-            held = max(0.0, tally[LAST, i] + patience(tally, i, soon) - at) / h
+        if kind[i] == MASSLESS or frame[SLIP_FORCE, i] == 0.0:
+            held = max(0.0, tally[LAST, i] + patience(tally, i, radian) - at) / h
             gap = frame[SLIP_FORCE, i] - frame[KINETIC_SLIP_FORCE, i]
             if held >= 1.0:
                 continue

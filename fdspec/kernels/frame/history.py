@@ -41,7 +41,6 @@ from fdspec.kernels.frame.output import write_traces
 from fdspec.kernels.frame.peaks import PEAK_ROWS, raise_peaks
 from fdspec.kernels.frame.reset import (
     RELEASE,
-    SOON,
     TALLY_ROWS,
     begin_free,
     begin_slip,
@@ -49,7 +48,7 @@ from fdspec.kernels.frame.reset import (
     stay_sprung,
     travel_so_far,
 )
-from fdspec.kernels.frame.results import COUNTS, NO_TIME
+from fdspec.kernels.frame.results import COUNTS, END, END_ROWS, NO_TIME, STOREY_RESULTS
 from fdspec.kernels.frame.step import change_phases, look_ahead
 from fdspec.kernels.frame.taylor import (
     DISPLACEMENT,
@@ -138,12 +137,21 @@ def history(
             state[OFFSET, i] = 0.0
         tally[0, i] = state[OFFSET, i]
         set_phase(frame, model, phase, i)
+    resumes = start.shape[0] == END_ROWS
+    if resumes:
+        for i in range(size):
+            for k in range(4):
+                state[k, i] = start[k, i]
+            tally[0, i] = state[OFFSET, i]
+            phase[i] = int(start[4, i])
+            fresh[i] = int(start[5, i])
+            touching[i] = int(start[6, i])
     stored = stored_energy(frame, dense_stiffness, state)
     transitions = 0
     # Massless braces first: what they do at once is felt in the storeys below, and not the other way.
     for turn in range(2):
         for i in range(size):
-            if kind[i] == NO_BRACE or (kind[i] == MASSLESS) != (turn == 0):
+            if resumes or kind[i] == NO_BRACE or (kind[i] == MASSLESS) != (turn == 0):
                 continue
             reaction = reaction_now(frame, model, stiffness_lanes, damping_lanes, state, i)
             changes = 0
@@ -197,7 +205,7 @@ def history(
             if massless:
                 relax(frame, model, kind, phase, fresh, state)
                 rate = fastest_rate(model, phase, held_rate)
-            soon = SOON * min(dt, 1.0 / rate)
+            radian = min(dt, 1.0 / rate)
             parts = max(1, math.ceil((dt - tau) * rate / radians - 1e-9))
             h = (dt - tau) / parts
             n = order_for(rate * h, extra)
@@ -223,7 +231,7 @@ def history(
                 n,
                 h,
                 step * dt + tau,
-                soon,
+                radian,
                 acceleration,
                 rise,
                 c,
@@ -290,7 +298,7 @@ def history(
                 signs,
                 x,
                 step * dt + tau,
-                soon,
+                radian,
                 times,
                 storeys,
                 phases,
@@ -321,6 +329,11 @@ def history(
         by_storey[7, i] = state[DISPLACEMENT, i] - state[OFFSET, i]
         by_storey[8, i] = travel
         by_storey[10, i] = work
+        for k in range(4):
+            by_storey[END + k, i] = state[k, i]
+        by_storey[END + 4, i] = phase[i]
+        by_storey[END + 5, i] = fresh[i]
+        by_storey[END + 6, i] = touching[i]
     error = 0.0
     if certify:
         # Net input may be zero, as over whole periods of a frame without damping; what the balance has to
@@ -397,12 +410,13 @@ def integrate(
     frame (FRAME_ROWS, N), dense_stiffness and dense_damping (N, N), or (0, 0) where there is nothing
     beside the springs and dashpots of ``frame``: see :mod:`fdspec.kernels.frame.model`.  ground: acceleration
     at the samples dt apart, m/s2, (n,); free_steps: steps of dt with the ground at rest that follow.
-    start (4, N): displacement and velocity of floors, then of braces, at t = 0.  radians: longest phase
-    of a step; extra: terms beyond those the series needs.
+    start (4, N): displacement and velocity of floors, then of braces, at t = 0; or (7, N): the rows of the
+    end of another history, from which this one goes on.  radians: longest phase of a step; extra: terms
+    beyond those the series needs.
 
     times, storeys, phases (as many as there is room for): changes of phase in the order of time.
     traces (m, len(STOREY_TRACES), N), energies (m, len(TOTAL_TRACES)): filled at k dt_out for k < m.
-    by_storey (len(STOREY_RESULTS), N), totals (len(TOTALS),): results.  viscous_energy and energy_error
+    by_storey (END + END_ROWS, N), totals (len(TOTALS),): results.  viscous_energy and energy_error
     are worked out where ``certify`` says so; traces need the first and cost it.
     """
     size = frame.shape[1]

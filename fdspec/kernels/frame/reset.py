@@ -42,17 +42,16 @@ TRAVEL = 1
 RELEASE = 2
 """Energy that a massless brace lost to friction in snapping back, J."""
 LAST = 3
-"""Time of the latest change of phase of a massless brace, s."""
-TURNS = 4
-"""How many of its changes have followed each other at what is one instant but for rounding."""
-TALLY_ROWS = 5
-"""Rows of the ``tally`` array (5, N)."""
+"""Time of the latest change of a massless brace, or of one without friction, s."""
+SINCE = 4
+TURNS = 5
+"""Start (s) of a radian or record step, whichever is shorter, and the changes counted in it."""
+TALLY_ROWS = 6
+"""Rows of the ``tally`` array (6, N)."""
 
-SOON = 0.01
-"""Share of a radian, or of a record step, within which a storey's changes may be one instant's."""
-FREE_TURNS = 6.0
-MOST_TURNS = 48.0
-"""Changes at one instant that no law makes, and those after which the next has to wait the longest."""
+FREE_TURNS = 8.0
+MOST_TURNS = 28.0
+"""Changes within a radian that no law makes, and those after which the next has to wait the longest."""
 
 JUMPED = -1
 """``fresh`` of a storey that sticks and whose reaction has just jumped with the force in the brace above."""
@@ -174,27 +173,29 @@ def end_slip(frame, kind, phase, fresh, touching, state, tally, i, held):
 
 
 @inner
-def count_turn(tally, i, at, soon):
-    """Count a change of a massless brace at the time ``at`` if it follows one within ``soon`` (s)."""
-    if at - tally[LAST, i] > soon or at < tally[LAST, i]:
-        tally[TURNS, i] *= 0.5
+def count_turn(tally, i, at, radian):
+    """Count a change of storey i at the time ``at`` among those of this radian (s)."""
+    if at - tally[SINCE, i] > radian or at < tally[SINCE, i]:
+        tally[SINCE, i] = at
+        tally[TURNS, i] *= 0.25
     else:
         tally[TURNS, i] += 1.0
     tally[LAST, i] = at
 
 
 @inner
-def patience(tally, i, soon):
-    """How long (s) after its latest change a massless brace is left in its phase.
+def patience(tally, i, radian):
+    """How long (s) after its latest change a storey is left in its phase.
 
-    No time, but where many changes follow each other at one instant.  There two phases differ by what
-    rounding makes of a force or velocity that is zero, and either is right.  Each further change then doubles
-    the time to the next, so that the motion gets away from the instant after a few dozen.
+    No time, but where more changes follow each other within a radian (s) of the fastest motion than it can
+    make.  There two phases differ by what rounding leaves of a force or velocity that is zero, and either is
+    right: at one instant, in motion that has died out, or in upper floors that have hardly begun to move.
+    Each further change then multiplies the time to the next, so that the motion gets away.
     """
     turns = tally[TURNS, i]
     if turns <= FREE_TURNS:
         return 0.0
-    return soon * 2.0 ** (min(turns, MOST_TURNS) - MOST_TURNS)
+    return radian * 4.0 ** (min(turns, MOST_TURNS) - MOST_TURNS)
 
 
 @inner

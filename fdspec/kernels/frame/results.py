@@ -18,7 +18,12 @@ STOREY_RESULTS = (
     "storey_transitions",
     "storey_friction_energy",
 )
-"""Rows of ``by_storey`` (11, N); the first six are the peaks."""
+"""First rows of ``by_storey`` (18, N); the first six of them are the peaks."""
+
+END = len(STOREY_RESULTS)
+END_ROWS = 7
+"""First row and number of the rows that follow, the state at the end: displacement, velocity, offset, sliding
+velocity, phase, and how the next segment begins."""
 
 COUNTS = 9
 """Row of the number of changes of phase."""

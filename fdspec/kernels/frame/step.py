@@ -31,7 +31,7 @@ def look_ahead(
     n,
     h,
     at,
-    soon,
+    radian,
     acceleration,
     rise,
     c,
@@ -75,7 +75,7 @@ def look_ahead(
         n,
         h,
         at,
-        soon,
+        radian,
         acceleration,
         rise,
         c,
@@ -100,7 +100,7 @@ def change_phases(
     signs,
     x,
     at,
-    soon,
+    radian,
     times,
     storeys,
     phases,
@@ -110,7 +110,7 @@ def change_phases(
     """Make the changes of all storeys whose instant is the fraction x of the step.
 
     Massless braces change first: what they do follows from the state alone, and the storeys below them need
-    to know it.  at: time then, s; soon as in `search`.  times, storeys, phases: changes of phase, as far as
+    to know it.  at: time then, s; radian as in `search`.  times, storeys, phases: changes of phase, as far as
     they have room; counts (N,): changes of each storey.  Returns how many storeys were looked at, and
     transitions with those made added.
     """
@@ -130,8 +130,9 @@ def change_phases(
             else:
                 held = reaction_now(frame, model, stiffness_lanes, damping_lanes, state, i)
                 changed = end_slip(frame, kind, phase, fresh, touching, state, tally, i, held)
+            if turn == 0 or frame[SLIP_FORCE, i] == 0.0:
+                count_turn(tally, i, at, radian)
             if turn == 0:
-                count_turn(tally, i, at, soon)
                 set_phase(frame, model, phase, i)
             if changed:
                 if transitions < times.size:

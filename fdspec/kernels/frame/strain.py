@@ -34,7 +34,7 @@ from fdspec.kernels.frame.model import (
     rate_of,
     set_phase,
 )
-from fdspec.kernels.frame.reset import SOON, TALLY_ROWS, begin_slip
+from fdspec.kernels.frame.reset import TALLY_ROWS, begin_slip
 from fdspec.kernels.frame.step import change_phases, look_ahead
 from fdspec.kernels.frame.taylor import (
     DISPLACEMENT,
@@ -175,7 +175,7 @@ def strain_of_history(
             if massless:
                 relax(frame, model, kind, phase, fresh, state)
                 rate = fastest_rate(model, phase, held_rate)
-            soon = SOON * min(dt, 1.0 / rate)
+            radian = min(dt, 1.0 / rate)
             parts = max(1, math.ceil((dt - tau) * rate / radians - 1e-9))
             h = (dt - tau) / parts
             n = order_for(rate * h, 0)
@@ -201,7 +201,7 @@ def strain_of_history(
                 n,
                 h,
                 step * dt + tau,
-                soon,
+                radian,
                 acceleration,
                 rise,
                 c,
@@ -237,7 +237,7 @@ def strain_of_history(
                 signs,
                 x,
                 step * dt + tau,
-                soon,
+                radian,
                 no_times,
                 none,
                 none,

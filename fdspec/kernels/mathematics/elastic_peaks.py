@@ -106,7 +106,7 @@ def look_between(p, lane, ground, h, x, v, first, last, more, best, c, d):
     """Walk through steps ``first`` to ``last`` from x, v; raise ``best`` to the continuous peaks."""
     g = p[G * LANES + lane]
     w2 = p[W2 * LANES + lane]
-    order = series_order(rate_bound(g, w2) * h)
+    order = 3 + series_order(rate_bound(g, w2) * h)  # at rest the motion begins with the forces' terms
     for i in range(first, last):
         start = ground[i]
         end = ground[i + 1]

@@ -33,9 +33,6 @@ C_2, C_4, C_6, C_8, C_10, C_12, C_14 = ((-1.0) ** k / math.factorial(2 * k) for 
 LAST_TERM = 1e-17
 """A series ends with a term below this, relative to the motion; what it leaves out is far below rounding."""
 
-MOST = 19
-"""Order of the longest series that is written out for lanes: that of a radian."""
-
 SHORT_ANGLE = 0.55
 """Angle (rad) up to which sine and cosine are summed by their series."""
 
@@ -241,23 +238,6 @@ def ahead(x, v, g, w2, p0, p1, h, n):
     older, old, rise, slope, area = opening(x, v, p0, p1, g, w2, h)
     for k in range(4, n + 1):
         term = term_of(k, gh, wh, old, older)
-        rise += term
-        slope = fma(float(k), term, slope)
-        area = fma(INVERSE[k + 1], term, area)
-        older = old
-        old = term
-    return closing(x, h, rise, slope, area)
-
-
-@inlined
-def ahead_in_lane(x, v, g, w2, p0, p1, h, n):
-    """The same numbers for an order of at most MOST, by a loop of known length, which lanes can share."""
-    gh = g * h
-    wh = w2 * h * h
-    older, old, rise, slope, area = opening(x, v, p0, p1, g, w2, h)
-    for k in range(4, MOST + 1):
-        term = term_of(k, gh, wh, old, older)
-        term = term if k <= n else 0.0
         rise += term
         slope = fma(float(k), term, slope)
         area = fma(INVERSE[k + 1], term, area)

@@ -101,11 +101,13 @@ def verdict(course):
     margin = BEND_OFF * course.fourth
     bends_down = max(course.start_bend, course.end_bend) + margin < 0.0
     bends_up = min(course.start_bend, course.end_bend) - margin > 0.0
-    falls = clears(-course.start_rise, -course.start_bend, -course.end_rise, -course.end_bend, course.fifth)
+    sinks = clears(-course.start_rise, -course.start_bend, -course.end_rise, -course.end_bend, course.fifth)
     turns_outside = (course.start_rise >= 0.0) | (course.end_rise <= 0.0)
     ends_above = course.end > 0.0
+    # One that bends up and ends at zero, rising, has crossed it once before.
+    comes_back = (course.end == 0.0) & (course.end_rise > 0.0)
     stays = is_clear(course) | (ends_above & (bends_down | (bends_up & turns_outside)))
-    crosses = (not ends_above) & (bends_down | bends_up | falls)
+    crosses = (not ends_above) & (bends_down | (bends_up & (not comes_back)) | sinks)
     sure = CROSSES if crosses else CLEAR
     return sure if (course.start > 0.0) & (stays | crosses) else UNCLEAR
 
@@ -192,6 +194,16 @@ def nearby(r, t):
     v = fma(t, fma(t, fma(t, fma(t, R_24 * r.c, SIXTH * r.s), HALF * r.j), r.a), r.v)
     area = fma(t, fma(t, fma(t, fma(t, R_120 * r.s, R_24 * r.j), SIXTH * r.a), HALF * r.v), r.x)
     return x, v, t * area
+
+
+@inlined
+def falls(t, y1, y2, y3):
+    """Whether a quantity falls through its zero a short time t away.
+
+    One that starts above zero and rises there crosses it for the second time: at the end of a piece that may
+    be all that rounding shows of the first.
+    """
+    return fma(t, fma(t, HALF * y3, y2), y1) < 0.0
 
 
 @inlined

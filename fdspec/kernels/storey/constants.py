@@ -13,6 +13,10 @@ RADIANS = 1.0
 """Longest phase of a piece that is searched for roots; no result depends on it."""
 
 
+SLOW = 0.05
+"""Phase (rad) of the brace in a piece below which its motion is a series: 12 digits are left there."""
+
+
 class Branch(NamedTuple):
     """One linear oscillator of the storey: floor and brace as one, the floor alone, the brace alone."""
 
@@ -104,8 +108,21 @@ def steps_per_sample(storey, dt, radians):
 
 @inlined
 def is_swift(plan):
-    """Whether the brace's motion is known in closed form: it has mass and no damping."""
-    return plan.storey.brace_mass > 0.0 and plan.brace.w2 > 0.0 and plan.brace.g == 0.0
+    """Whether the brace's motion is taken from its closed form: it has mass, no damping, and is not slow.
+
+    The closed form of a brace that is slow against the step loses digits, see `is_slow`.
+    """
+    return plan.storey.brace_mass > 0.0 and plan.brace.g == 0.0 and not is_slow(plan)
+
+
+@inlined
+def is_slow(plan):
+    """Whether the brace moves through so little of its period in a piece that its spring hardly matters.
+
+    What is a difference of the forcing's share and of the swing about it then cancels: by 1 / phase^2 of a
+    rounding.  A brace without spring is the limit.
+    """
+    return plan.brace.rate * plan.slip_step < SLOW
 
 
 @inner

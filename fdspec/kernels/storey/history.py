@@ -12,9 +12,11 @@ import math
 from fdspec.compiler.options import inner
 from fdspec.kernels.friction import reaction
 from fdspec.kernels.storey.energy import stored_energy
-from fdspec.kernels.storey.step import begin, walk
+from fdspec.kernels.storey.step import begin, resume, walk
 from fdspec.kernels.types import (
     ANCHOR,
+    ENERGY_NOT_CLOSED,
+    ENERGY_TOLERANCE,
     INPUT,
     NON_FINITE_STATE,
     OK,
@@ -57,6 +59,17 @@ BEYOND = 1e-6
 
 
 @inner
+def energy_in_play(storey, s, friction):
+    """What an error of the balance is measured by, J: the largest of the energies that a history has seen.
+
+    The net input alone may be zero, as over whole periods of a frame without damping.
+    """
+    moved = storey.floor_mass * s[PEAK_VELOCITY] * s[PEAK_VELOCITY]
+    bent = storey.floor_stiffness * s[PEAK_DISPLACEMENT] * s[PEAK_DISPLACEMENT]
+    return max(max(abs(s[INPUT]) + s[STORED], s[VISCOUS] + friction), 0.5 * max(moved, bent))
+
+
+@inner
 def finish(storey, s, certify, result):
     """Fill ``result`` (see RESULTS) from the state at the end."""
     motion = Motion(s[U], s[V], s[D], s[E])
@@ -69,7 +82,7 @@ def finish(storey, s, certify, result):
     error = 0.0
     if certify:
         missing = s[INPUT] + s[STORED] - stored_energy(storey, motion) - s[VISCOUS] - friction
-        scale = abs(s[INPUT]) + s[STORED]
+        scale = energy_in_play(storey, s, friction)
         error = abs(missing) / scale if scale > 0.0 else 0.0
     result[0] = s[PEAK_ACCELERATION]
     result[1] = s[PEAK_DISPLACEMENT]
@@ -85,8 +98,11 @@ def finish(storey, s, certify, result):
     size = 0.0
     for k in range(10):
         size += abs(result[k])
-    if not size < math.inf and s[STATUS] == OK:
-        result[10] = NON_FINITE_STATE
+    if s[STATUS] == OK:
+        if not size < math.inf:
+            result[10] = NON_FINITE_STATE
+        elif error > ENERGY_TOLERANCE:
+            result[10] = ENERGY_NOT_CLOSED
 
 
 @inner
@@ -98,6 +114,7 @@ def history(
     parts,
     free_steps,
     start,
+    resumes,
     s,
     floor,
     brace,
@@ -112,10 +129,14 @@ def history(
 
     ground: acceleration at the samples, m/s2, (n,); parts: steps of the plan in each dt;
     free_steps: record steps with the ground at rest that follow.  start: Motion at t = 0, the brace
-    locked where it stands, unless its velocity differs.  times, phases: changes of phase as far as
+    locked where it stands, unless its velocity differs; resumes: whether ``s`` is given in its place, the
+    state in which another history ended.  times, phases: changes of phase as far as
     they have room.  traces (m, len(TRACES)): filled at k dt_out for k < m.
     """
-    begin(plan, start, s)
+    if resumes:
+        resume(plan, s)
+    else:
+        begin(plan, start, s)
     begun = int(s[TRANSITIONS])
     for k in range(min(begun, times.size)):
         times[k] = 0.0

@@ -17,6 +17,7 @@ from fdspec.kernels.mathematics.zero_crossing import (
     SETTLED,
     UNCLEAR,
     Course,
+    falls,
     guess,
     is_clear,
     judged,
@@ -148,7 +149,7 @@ def locate_stop(plan, start, force, phase, t, h):
             low = t
         else:
             high = t
-        if not low <= t + later <= high:
+        if not (low <= t + later <= high and falls(later, y1, y2, y3)):
             t = 0.5 * (low + high)
             continue
         if rate * abs(later) <= NEAR and rate * last <= SETTLED:
@@ -173,6 +174,8 @@ def search_slip(floor, brace, slide, n, h, phase, kick):
     if kick >= 0.0:
         slide[0] = 0.0
         slide[1] = phase * kick * h
+    elif phase * slide[0] < 0.0:  # by rounding: where sliding goes is what counts
+        slide[0] = 0.0
     return first_root(slide, 0, n, float(phase))
 
 

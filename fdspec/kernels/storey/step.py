@@ -65,6 +65,12 @@ from fdspec.kernels.types import (
     V,
 )
 
+UNRESOLVED = 2.0**-50
+"""A sliding velocity below this share of those of floor and brace has not yet left the zero it began at."""
+
+CHANGES_AT_ONE_INSTANT = 64
+"""More changes of phase than this without any time between them are a loop: two or three are real."""
+
 
 @inlined
 def with_instant(plan, phase, offset, motion, peaks):
@@ -110,8 +116,16 @@ def begin(plan, start, s):
     s[STORED] = stored_energy(storey, motion)
     s[OFFSET] = motion.u - motion.d
     s[ANCHOR] = motion.u - motion.d
+    if storey.brace_mass == 0.0:
+        motion = Motion(motion.u, motion.v, motion.d, motion.v)  # its velocity is none of the state
     if storey.slip_force == 0.0:
-        phase = 1
+        if storey.brace_mass == 0.0:
+            motion, _ = begin_slip(storey, 1 if held > 0.0 else -1, motion, held)
+            s[RELEASE] = spring_release(storey, start.d, motion.d)
+            s[TRAVEL] = abs(start.d - motion.d)
+            s[ANCHOR] = motion.u - motion.d
+        slide = motion.v - motion.e
+        phase = 1 if slide > 0.0 or (slide == 0.0 and held >= 0.0) else -1
     elif motion.v != motion.e and storey.brace_mass > 0.0:
         phase = 1 if motion.v > motion.e else -1
     elif abs(held) > storey.slip_force:
@@ -125,8 +139,7 @@ def begin(plan, start, s):
             s[OFFSET] = motion.u - motion.d
             s[ANCHOR] = motion.u - motion.d
             s[TRANSITIONS] = 2.0
-            if storey.kinetic_slip_force == storey.slip_force:
-                s[TOUCHING] = phase
+            s[TOUCHING] = phase
             motion = Motion(motion.u, motion.v, motion.d, motion.v)
             phase = STICK
     s[U] = motion.u
@@ -136,6 +149,21 @@ def begin(plan, start, s):
     s[PHASE] = phase
     s[KICK] = kick
     peaks = with_instant(plan, phase, s[OFFSET], motion, Peaks(0.0, 0.0, 0.0, 0.0))
+    s[PEAK_ACCELERATION] = peaks.acceleration
+    s[PEAK_DISPLACEMENT] = peaks.displacement
+    s[PEAK_VELOCITY] = peaks.velocity
+    s[PEAK_SHEAR] = peaks.shear
+
+
+@inner
+def resume(plan, s):
+    """Go on from the state ``s`` in which another history has ended, with peaks and energies anew."""
+    motion = Motion(s[U], s[V], s[D], s[E])
+    for k in (INPUT, VISCOUS, RELEASE, TRAVEL, TRANSITIONS, EVENTS, STATUS):
+        s[k] = 0.0
+    s[ANCHOR] = motion.u - motion.d
+    s[STORED] = stored_energy(plan.storey, motion)
+    peaks = with_instant(plan, int(s[PHASE]), s[OFFSET], motion, Peaks(0.0, 0.0, 0.0, 0.0))
     s[PEAK_ACCELERATION] = peaks.acceleration
     s[PEAK_DISPLACEMENT] = peaks.displacement
     s[PEAK_VELOCITY] = peaks.velocity
@@ -187,6 +215,7 @@ def walk(
     tau = 0.0
     part = 0  # index of the piece within the step, on the grid of the phase
     whole = True  # whether the piece begins on that grid
+    at_one_instant = 0
     while tau < plan.step:
         pieces = 1 if phase == STICK else int(plan.slip_steps)
         order = int(plan.stick_order) if phase == STICK else int(plan.slip_order)
@@ -272,16 +301,18 @@ def walk(
                 )
             motion = end
         touching = STICK
-        kick = NO_KICK
+        if happens or phase * (motion.v - motion.e) > UNRESOLVED * (abs(motion.v) + abs(motion.e)):
+            kick = NO_KICK
         if not happens:
             part += 1
             whole = True
             tau = target
             continue
 
+        at_one_instant = at_one_instant + 1 if tau + h == tau else 0
         tau += h
         s[EVENTS] += 1.0
-        if s[EVENTS] > TRANSITION_CAP:
+        if s[EVENTS] > TRANSITION_CAP or at_one_instant > CHANGES_AT_ONE_INSTANT:
             s[STATUS] = TRANSITION_CAP_REACHED
             break
         changes = True
@@ -292,13 +323,15 @@ def walk(
             s[RELEASE] += spring_release(storey, spring, motion.d)
             phase = sign
         else:
-            v = 0.0 if loose and not free else motion.v
-            motion = Motion(motion.u, v, motion.d, motion.e if loose else v)
+            v = 0.0 if loose else motion.v
+            motion = Motion(motion.u, v, motion.d, v)
             slipped = sign * (motion.u - motion.d - s[ANCHOR])
             held = reaction(storey, motion.u, motion.v, motion.d)
             if storey.brace_mass == 0.0:
                 held = sign * storey.kinetic_slip_force
-            after = -sign if free else phase_after_stop(sign, held, limit)
+            after = phase_after_stop(sign, held, limit)
+            if free and after == STICK:
+                after = -sign
             if after == GOES_ON:
                 kick = sliding_kick(storey, held)
                 changes = False
@@ -310,9 +343,9 @@ def walk(
                 if phase == STICK:
                     offset = motion.u - motion.d
                     motion = Motion(motion.u, motion.v, motion.d, motion.v)
-                    if abs(held) == limit:
+                    if storey.brace_mass == 0.0:
                         touching = sign
-                elif not free:
+                elif storey.brace_mass > 0.0:
                     kick = sliding_kick(storey, held)
         if changes:
             k = int(s[TRANSITIONS])
@@ -327,6 +360,9 @@ def walk(
             part += 1
         whole = False
 
+    if calm:
+        # Bounds on what lies inside a step leave out its end, which the next step's would tell of.
+        peaks = with_instant(plan, phase, offset, motion, peaks)
     if not abs(motion.u) + abs(motion.v) + abs(motion.d) + abs(motion.e) < math.inf:
         s[STATUS] = NON_FINITE_STATE
     s[U] = motion.u

@@ -16,6 +16,7 @@ from fdspec.kernels.mathematics.zero_crossing import (
     SETTLED,
     UNCLEAR,
     Course,
+    falls,
     guess,
     is_clear,
     judged,
@@ -119,7 +120,7 @@ def locate_slip(plan, start, force, offset, side, t, h):
             low = t
         else:
             high = t
-        if not low <= t + later <= high:
+        if not (low <= t + later <= high and falls(later, y1, y2, y3)):
             t = 0.5 * (low + high)
             continue
         if b.rate * abs(later) <= NEAR and b.rate * last <= SETTLED:
@@ -133,10 +134,12 @@ def locate_slip(plan, start, force, offset, side, t, h):
 def search_stick(plan, floor, gap, n, h, offset, touching):
     """Fraction of the expanded piece at which the reaction reaches the slip force, and its sign.
 
-    ``touching`` is the sign of a reaction that stands at the slip force when the piece begins (a
-    massless brace that has just stopped), else 0.
+    ``touching`` is the sign of a reaction that stands at the kinetic slip force when the piece begins (a
+    massless brace that has just stopped), else 0.  Next to a displacement that is large the static slip force
+    may lie closer than rounding, so it is not worked out anew.
     """
     limit = plan.storey.slip_force
+    lacks = limit - plan.storey.kinetic_slip_force
     best = NO_ROOT
     sign = STICK
     pace = 1.0 / h
@@ -144,7 +147,9 @@ def search_stick(plan, floor, gap, n, h, offset, touching):
         for k in range(n):
             gap[k] = -side * (plan.hold_u * floor[k] + plan.hold_v * (k + 1) * floor[k + 1] * pace)
         gap[n] = 0.0
-        gap[0] = 0.0 if side == touching else gap[0] + limit + side * plan.hold_offset * offset
+        rest = gap[0] + limit + side * plan.hold_offset * offset
+        # Less than nothing can only be rounding: where the reaction goes is what counts.
+        gap[0] = lacks if side == touching else max(rest, 0.0)
         x = first_root(gap, 0, n, 1.0)
         if x < best:
             best = x

@@ -1,0 +1,107 @@
+"""`fdspec fragility`: the probability that a demand exceeds its limit, and its annual rate."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from fdspec.cli.echo import echo
+from fdspec.cli.output import PICTURES, force_option, free, save_picture
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@click.command()
+@click.argument("cube", metavar="CUBE.nc")
+@click.option("--demand", required=True, metavar="NAME", help="A variable of the cube, such as peak_drift.")
+@click.option("--limit", required=True, type=float, metavar="X", help="Its limit, in the variable's units.")
+@click.option(
+    "--measure",
+    metavar="NAME",
+    help="A variable of each record, such as pga, to multiply the intensity with.",
+)
+@click.option(
+    "--at", "chosen", multiple=True, metavar="DIM=VALUE", help="Select along a dim of the cube; repeat it."
+)
+@click.option("--hazard", metavar="FILE.csv", help="Hazard curve, intensity and annual rate: gives the risk.")
+@click.option("-o", "--output", metavar="FILE", help="A .nc or .csv file, or a picture: .png, .pdf, .svg.")
+@force_option
+def fragility(
+    cube: str,
+    demand: str,
+    limit: float,
+    measure: str | None,
+    chosen: tuple[str, ...],
+    hazard: str | None,
+    output: str | None,
+    force: bool,
+) -> None:
+    """Fit a lognormal fragility curve to a cube over intensity.
+
+    Prints median and dispersion with their standard errors, and with --hazard the annual rate and its
+    deaggregation over intensity, for every frame that the cube holds beside record and intensity.
+    """
+    from fdspec import store
+    from fdspec.figures.inelastic import plot_fragility
+    from fdspec.measures.fragility import fragility as fit_of
+    from fdspec.measures.risk import read_hazard, risk
+
+    path = None if output is None else free(output, force=force, suffixes=(".nc", ".csv", *PICTURES))
+    curve = None if hazard is None else read_hazard(hazard)
+    opened = store.open(cube)
+    for choice in chosen:
+        opened = _select(opened, choice)
+    fit = fit_of(opened, demand=demand, limit=limit, measure=measure)
+    shown = fit[["median", "dispersion", "median_error", "dispersion_error"]]
+    rates = None if curve is None else risk(fit, curve)
+    if rates is not None:
+        shown = shown.merge(rates[["annual_rate", "probability_50_years"]])
+        fit = fit.merge(rates, combine_attrs="override")
+    frame = shown.reset_coords(drop=True).expand_dims("curve").to_dataframe()
+    table = frame.reset_index().drop(columns="curve")
+    echo(table.to_string(index=False, float_format=lambda value: f"{value:.4g}"))
+    if rates is not None and rates["annual_rate"].size == 1:
+        for _, row in rates["deaggregation"].squeeze().to_dataframe().iterrows():
+            echo(f"{row.segment_from:10.4g} to {row.segment_to:10.4g}  {row.deaggregation:6.1%}")
+    if path is None:
+        return
+    if path.suffix.lower() in PICTURES:
+        save_picture(plot_fragility(fit), path)
+    else:
+        _write(fit, table, path)
+    echo(f"{path}")
+
+
+def _select(opened: xr.Dataset, choice: str) -> xr.Dataset:
+    """Select along a dim by its value, as the user wrote it."""
+    import numpy as np
+
+    dim, _, text = choice.partition("=")
+    if dim not in opened.dims or not text:
+        known = ", ".join(map(str, opened.dims))
+        raise click.UsageError(f"--at {choice}: give DIM=VALUE with a dim among {known}")
+    values = opened[dim].values
+    if values.dtype.kind in "OU":
+        match = [k for k, value in enumerate(values) if str(value) == text]
+    else:
+        try:
+            number = float(text)
+        except ValueError:
+            raise click.UsageError(f"--at {choice}: {text!r} is no number") from None
+        match = np.flatnonzero(np.isclose(values, number, rtol=1e-9, atol=0.0)).tolist()
+    if not match:
+        raise click.UsageError(f"--at {choice}: the cube has {', '.join(map(str, values[:20]))}")
+    return opened.isel({dim: match[0]})
+
+
+def _write(fit: xr.Dataset, table: Any, path: Path) -> None:
+    from fdspec.store.replacing import replacing
+
+    with replacing(path, suffixes=(path.suffix,)) as part:
+        if path.suffix.lower() == ".csv":
+            table.to_csv(part, index=False, lineterminator="\n")
+        else:
+            fit.to_netcdf(part)

@@ -1,0 +1,1 @@
+"""One oscillator whose spring is bilinear, by exact steps: the engine of inelastic spectra."""
