@@ -49,6 +49,13 @@ def test_every_field_of_the_grid_can_be_written() -> None:
         "kinetic_friction_coefficient": 0.3,
         "normal_force_factor": 4.0,
         "brace_damping_ratio": 0.01,
+        "storey_height": 3.0,
+        "yield_shear": 5e3,
+        "hardening_ratio": -0.02,
+        "gravity_load": 1e3,
+        "slot_length": 0.01,
+        "slot_stiffness": 1e6,
+        "recentring_stiffness": 1e5,
     }
     assert set(values) == set(GRID_FIELDS)
     study = Study.parse("\n".join(f"{name} = {value}" for name, value in values.items()))
