@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 
 from benchmarks.table import seconds, show
 from fdspec.kernels.frame.history import integrate
-from fdspec.kernels.frame.results import RADIANS, STOREY_RESULTS, TOTALS
 from fdspec.kernels.frame.output import STOREY_TRACES, TOTAL_TRACES
+from fdspec.kernels.frame.results import RADIANS, STOREY_RESULTS, TOTALS
 from fdspec.model.building import Building, ModalDamping, RayleighDamping
 
 REFERENCE = Path(__file__).parents[1] / "tests" / "reference" / "mdof_peaks.json"

@@ -78,9 +78,7 @@ def sweeps() -> None:
         for _ in range(ROUNDS):
             certified.append(spent(lambda f=frames: peaks_of_frames(f, motion, certify=True)) / HISTORIES)
             plain.append(spent(lambda f=frames: peaks_of_frames(f, motion, certify=False)) / HISTORIES)
-            alone.append(
-                spent(lambda f=some: [peaks_of(one, motion, certify=True) for one in f]) / len(some)
-            )
+            alone.append(spent(lambda f=some: [peaks_of(one, motion, certify=True) for one in f]) / len(some))
         changes = totals[:, 0].mean()
         rows.append(
             (
@@ -203,4 +201,3 @@ def peers() -> None:
         add(f"the study's scheme, step {step:g} s", spent(scheme), told[0])
     title = f"Four storeys, {totals[0, 0]:.0f} changes of phase, peak acceleration of the top floor"
     show(title, ("who", "time a history", "times ours", "off by"), rows)
-

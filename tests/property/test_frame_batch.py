@@ -49,9 +49,13 @@ def of_all_kinds(storeys: int) -> list[Frame]:
     ):
         cases.append(
             fdspec.Building(
-                base.floor_mass, k, base.brace_mass, base.brace_stiffness, base.slip_force,
+                base.floor_mass,
+                k,
+                base.brace_mass,
+                base.brace_stiffness,
+                base.slip_force,
                 damping=damping,
-            )  # fmt: skip
+            )
         )
     frames = [scaled(case.frame, scale) for case in cases for scale in (1.0, 0.3, 2.5)]
     return [*frames, scaled(cases[0].frame, 0.0)]
@@ -154,7 +158,9 @@ def test_a_state_that_is_no_number_ends_its_own_history_alone() -> None:
     broken = frames[0].properties.copy()
     broken[2] = -1e300
     motion = part_of_motion(300, 360)
-    _, totals = batch.peaks_of_frames([frames[0]._replace(properties=broken), frames[1]], motion, certify=True)
+    _, totals = batch.peaks_of_frames(
+        [frames[0]._replace(properties=broken), frames[1]], motion, certify=True
+    )
     assert totals[0, TOTALS.index("status")] != 0.0
     _, alone = batch.peaks_of_frames([frames[1]], motion, certify=True)
     np.testing.assert_array_equal(totals[1], alone[0])

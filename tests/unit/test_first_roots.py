@@ -59,7 +59,9 @@ def test_neighbours_and_longer_ones_touch_no_bit() -> None:
     roots, undecided = eight_roots(polynomials)
     turned, apart = eight_roots(polynomials[::-1])
     np.testing.assert_array_equal(turned[::-1], roots)
-    assert [apart >> lane & 1 for lane in range(WIDTH)][::-1] == [undecided >> lane & 1 for lane in range(WIDTH)]
+    assert [apart >> lane & 1 for lane in range(WIDTH)][::-1] == [
+        undecided >> lane & 1 for lane in range(WIDTH)
+    ]
     longer, still = eight_roots(np.pad(polynomials, ((0, 0), (0, 5))))
     np.testing.assert_array_equal(longer, roots)
     assert still == undecided

@@ -48,7 +48,7 @@ from fdspec.kernels.frame.reset import (
     stay_sprung,
     travel_so_far,
 )
-from fdspec.kernels.frame.results import COUNTS, END, END_ROWS, NO_TIME, STOREY_RESULTS
+from fdspec.kernels.frame.results import COUNTS, END, END_ROWS, NO_TIME
 from fdspec.kernels.frame.step import change_phases, look_ahead
 from fdspec.kernels.frame.taylor import (
     DISPLACEMENT,
@@ -74,6 +74,7 @@ from fdspec.kernels.types import (
 
 given1d = types.Array(types.float64, 1, "C", readonly=True)
 given2d = types.Array(types.float64, 2, "C", readonly=True)
+
 
 @inner
 def history(

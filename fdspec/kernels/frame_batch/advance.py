@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 
 from fdspec.compiler.options import inner, wide
+from fdspec.kernels.frame.taylor import DISPLACEMENT, OFFSET, SLIDING, TERMS, VELOCITY
 from fdspec.kernels.frame_batch.eight import WIDTH, abs8, fma8, less8, load, max8, splat, store
 from fdspec.kernels.frame_batch.layout import (
     END,
@@ -27,7 +28,6 @@ from fdspec.kernels.frame_batch.layout import (
     row,
     term,
 )
-from fdspec.kernels.frame.taylor import DISPLACEMENT, OFFSET, SLIDING, TERMS, VELOCITY
 
 _k = np.arange(TERMS + 1.0)
 ONCE: Final = 1.0 / (_k + 1.0)

@@ -11,6 +11,7 @@ from typing import Final
 import numpy as np
 
 from fdspec.compiler.options import inner, wide
+from fdspec.kernels.frame.taylor import SLIDING, VELOCITY
 from fdspec.kernels.frame_batch.advance import ONCE
 from fdspec.kernels.frame_batch.eight import WIDTH, fma8, load, splat, store
 from fdspec.kernels.frame_batch.layout import (
@@ -30,7 +31,6 @@ from fdspec.kernels.frame_batch.layout import (
     row,
     term,
 )
-from fdspec.kernels.frame.taylor import SLIDING, VELOCITY
 
 SIX: Final = 6
 
@@ -51,8 +51,22 @@ def floor_speeds(p, at, size, orders, nodes, first):
     ground = splat(0.0) - load(p, GROUND * WIDTH)
     rise = splat(-0.5) * load(p, RISE * WIDTH)
     for i in range(size):
-        put_speeds(p, at, INERTIA, i, size, orders, nodes, first, x, ground, rise, load(p, LENGTH * WIDTH),
-                   load(p, row(START + VELOCITY, i)), at.speeds)  # fmt: skip
+        put_speeds(
+            p,
+            at,
+            INERTIA,
+            i,
+            size,
+            orders,
+            nodes,
+            first,
+            x,
+            ground,
+            rise,
+            load(p, LENGTH * WIDTH),
+            load(p, row(START + VELOCITY, i)),
+            at.speeds,
+        )
 
 
 @inner
@@ -63,8 +77,22 @@ def sliding_speeds(p, at, size, orders, nodes, first):
     nothing = splat(0.0)
     for i in range(size):
         h = load(p, LENGTH * WIDTH) * load(p, row(SLIDES, i))
-        put_speeds(p, at, SECOND, i, size, orders, nodes, first, x, nothing, nothing, h,
-                   load(p, row(START + SLIDING, i)), at.slides)  # fmt: skip
+        put_speeds(
+            p,
+            at,
+            SECOND,
+            i,
+            size,
+            orders,
+            nodes,
+            first,
+            x,
+            nothing,
+            nothing,
+            h,
+            load(p, row(START + SLIDING, i)),
+            at.slides,
+        )
 
 
 @inner
@@ -126,7 +154,9 @@ def power_at(p, at, size, node, dense_damping, damped, grounded, loose):
             j = 0
             while j + 1 < i:
                 one = fma8(load(p, at.damping + (i * size + j) * WIDTH), load(p, speeds + j * WIDTH), one)
-                two = fma8(load(p, at.damping + (i * size + j + 1) * WIDTH), load(p, speeds + (j + 1) * WIDTH), two)
+                two = fma8(
+                    load(p, at.damping + (i * size + j + 1) * WIDTH), load(p, speeds + (j + 1) * WIDTH), two
+                )
                 j += 2
             if j < i:
                 one = fma8(load(p, at.damping + (i * size + j) * WIDTH), load(p, speeds + j * WIDTH), one)

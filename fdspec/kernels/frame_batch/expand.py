@@ -15,6 +15,7 @@ its numbers are those it has alone.
 from __future__ import annotations
 
 from fdspec.compiler.options import inlined, inner, wide
+from fdspec.kernels.frame.taylor import DISPLACEMENT, OFFSET, SLIDING, VELOCITY
 from fdspec.kernels.frame_batch.eight import WIDTH, abs8, fma8, less8, load, splat, store, where_above
 from fdspec.kernels.frame_batch.layout import (
     BEND_REACH,
@@ -49,7 +50,6 @@ from fdspec.kernels.frame_batch.layout import (
     term,
 )
 from fdspec.kernels.mathematics.oscillator import INVERSE
-from fdspec.kernels.frame.taylor import DISPLACEMENT, OFFSET, SLIDING, VELOCITY
 
 
 @inlined
@@ -97,9 +97,9 @@ def add_stiffness(p, at, size):
 def expand(p, at, size, orders, dense_stiffness, dense_damping, damped, grounded):
     """Fill the series of ``orders`` terms over the steps that start at the state in the rows START.
 
-    Beside them the sums of all masses times their accelerations.  dense_stiffness, dense_damping: whether there
-    are such matrices; damped: whether dashpots stand between neighbours, grounded: whether floors hold to the
-    ground.
+    Beside them the sums of all masses times their accelerations.  dense_stiffness, dense_damping: whether
+    there are such matrices; damped: whether dashpots stand between neighbours, grounded: whether
+    floors hold to the ground.
     """
     wide()
     h = load(p, LENGTH * WIDTH)

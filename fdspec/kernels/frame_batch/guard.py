@@ -3,7 +3,20 @@
 from __future__ import annotations
 
 from fdspec.compiler.options import inlined, inner, wide
-from fdspec.kernels.frame_batch.eight import ALL, WIDTH, above, abs8, fma8, less8, load, max8, splat, sqrt8, store
+from fdspec.kernels.frame.taylor import DISPLACEMENT, OFFSET, SLIDING, VELOCITY
+from fdspec.kernels.frame_batch.eight import (
+    ALL,
+    WIDTH,
+    above,
+    abs8,
+    fma8,
+    less8,
+    load,
+    max8,
+    splat,
+    sqrt8,
+    store,
+)
 from fdspec.kernels.frame_batch.layout import (
     DASHPOT,
     FRICTION,
@@ -27,7 +40,6 @@ from fdspec.kernels.frame_batch.layout import (
     row,
     term,
 )
-from fdspec.kernels.frame.taylor import DISPLACEMENT, OFFSET, SLIDING, VELOCITY
 
 
 @inner
@@ -35,9 +47,9 @@ def alert(p, at, size, alerts):
     """Set alerts[i] to the lanes in which storey i must be searched; return the lanes that have any.
 
     A quantity that begins with two known terms stays between their values at both ends, give or take the sum
-    of the magnitudes of the others.  That clears reactions, and short slips.  In a longer slip the brace swings
-    about the floor below with an amplitude that grows by no more than that floor's jerk makes it: the floors'
-    own motion may then carry the slip on.
+    of the magnitudes of the others.  That clears reactions, and short slips.  In a longer slip the brace
+    swings about the floor below with an amplitude that grows by no more than that floor's jerk makes
+    it: the floors' own motion may then carry the slip on.
     """
     wide()
     h = load(p, LENGTH * WIDTH)
@@ -72,7 +84,9 @@ def alert(p, at, size, alerts):
         ring = fma8(jerk, slowness, sqrt8(fma8(swing, swing, kick * kick)))
         store(p, row(RING, i), ring)
         slips = above(abs8(sign), nothing)
-        slowest = fma8(nothing - half, reach + below_reach, least(sign * drift_rate, sign * h * (inertia - below)))
+        slowest = fma8(
+            nothing - half, reach + below_reach, least(sign * drift_rate, sign * h * (inertia - below))
+        )
         carried = above(slowest, ring)
         slowest = fma8(nothing - half, second_reach, least(sign * z, sign * h * second))
         slips_on = carried | above(slowest, nothing)

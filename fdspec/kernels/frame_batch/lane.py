@@ -6,7 +6,18 @@ import math
 
 from fdspec.compiler.options import inner
 from fdspec.kernels.frame import model as rows
-from fdspec.kernels.frame.model import NO_BRACE, fastest_rate, held_rates, kind_of, prepare, rate_of, set_phase
+from fdspec.kernels.frame.energy import stored_energy
+from fdspec.kernels.frame.model import (
+    NO_BRACE,
+    fastest_rate,
+    held_rates,
+    kind_of,
+    prepare,
+    rate_of,
+    set_phase,
+)
+from fdspec.kernels.frame.reset import RELEASE, TALLY_ROWS, begin_slip, travel_so_far
+from fdspec.kernels.frame.taylor import DISPLACEMENT, OFFSET, VELOCITY
 from fdspec.kernels.frame_batch.eight import WIDTH
 from fdspec.kernels.frame_batch.layout import (
     COLUMN_DASHPOTS,
@@ -40,14 +51,11 @@ from fdspec.kernels.frame_batch.layout import (
     VISCOUS,
     row,
 )
-from fdspec.kernels.frame.energy import stored_energy
-from fdspec.kernels.frame.reset import RELEASE, TALLY_ROWS, begin_slip, travel_so_far
-from fdspec.kernels.frame.taylor import DISPLACEMENT, OFFSET, VELOCITY
 from fdspec.kernels.types import ENERGY_NOT_CLOSED, ENERGY_TOLERANCE, NON_FINITE_STATE, OK, STICK
 
 
 @inner
-def put_phase(p, at, size, lane, frame, model, kind, phase, i):
+def put_phase(p, lane, frame, model, phase, i):
     """Bring the lane's numbers of storey i in line with its phase."""
     set_phase(frame, model, phase, i)
     sticks = phase[i] == STICK
@@ -64,7 +72,9 @@ def put_phase(p, at, size, lane, frame, model, kind, phase, i):
 
 
 @inner
-def put_history(p, at, size, lane, frame, stiffness, damping, model, kind, phase, fresh, touching, state, tally):
+def put_history(
+    p, at, size, lane, frame, stiffness, damping, model, kind, phase, fresh, touching, state, tally
+):
     """Set a lane to a history at rest at t = 0; a damper without friction slides from the start.
 
     Return the rate (1/s) with every damper stuck.
@@ -103,7 +113,7 @@ def put_history(p, at, size, lane, frame, stiffness, damping, model, kind, phase
         p[row(SLOWNESS, i) + lane] = model[rows.SLOWNESS, i] if brace > 0.0 else 0.0
         slowness = p[row(SLOWNESS, i) + lane]
         p[row(OMEGA, i) + lane] = 1.0 / slowness if slowness > 0.0 else 0.0
-        put_phase(p, at, size, lane, frame, model, kind, phase, i)
+        put_phase(p, lane, frame, model, phase, i)
     for i in range(stiffness.shape[0]):
         for j in range(size):
             p[at.stiffness + (i * size + j) * WIDTH + lane] = stiffness[i, j]
@@ -145,8 +155,9 @@ def is_finite(p, block, size, lane):
 
 
 @inner
-def finish(p, at, size, lane, frame, stiffness, phase, state, tally, transitions, status, certify, by_storey,
-           totals):  # fmt: skip
+def finish(
+    p, size, lane, frame, stiffness, phase, state, tally, transitions, status, certify, by_storey, totals
+):
     """Fill a history's results, as `fdspec.kernels.frame.history.integrate` does, from the rows END."""
     take_state(p, END, size, lane, state)
     friction = 0.0
