@@ -56,7 +56,7 @@ def peaks_of_frames(
 
 
 def _parts(frame: Frame) -> tuple[bool, ...]:
-    """What a frame is made of: dense stiffness and damping, dashpots, springs to the ground, loose dashpots."""
+    """Tell which parts a frame has: dense matrices; dashpots, ties to the ground, loose dashpots."""
     rows = frame.properties
     loose = bool(rows[BRACE_DAMPING].any())
     return (
@@ -71,6 +71,7 @@ def _parts(frame: Frame) -> tuple[bool, ...]:
 def _side_by_side(
     frames: Sequence[Frame], parts: tuple[bool, ...], motion: GroundMotion, certify: bool
 ) -> tuple[FloatArray, FloatArray]:
+    _, _, damped, grounded, loose = parts
     properties = np.stack([frame.properties for frame in frames])
     which: dict[tuple[int, int], int] = {}
     matrices: list[tuple[NDArray[np.float64], NDArray[np.float64]]] = []
@@ -88,7 +89,9 @@ def _side_by_side(
         dense,
         np.stack([stiffness for stiffness, _ in matrices]),
         np.stack([damping for _, damping in matrices]),
-        *parts[2:],
+        damped,
+        grounded,
+        loose,
         motion.acceleration,
         motion.dt,
         certify,

@@ -55,7 +55,7 @@ def of_all_kinds(storeys: int) -> list[Frame]:
                 base.brace_stiffness,
                 base.slip_force,
                 damping=damping,
-            )  # fmt: skip
+            )
         )
     frames = [scaled(case.frame, scale) for case in cases for scale in (1.0, 0.3, 2.5)]
     return [*frames, scaled(cases[0].frame, 0.0)]

@@ -76,6 +76,7 @@ from fdspec.kernels.types import (
 given1d = types.Array(types.float64, 1, "C", readonly=True)
 given2d = types.Array(types.float64, 2, "C", readonly=True)
 
+
 @inner
 def history(
     frame,

@@ -51,8 +51,22 @@ def floor_speeds(p, at, size, orders, nodes, first):
     ground = splat(0.0) - load(p, GROUND * WIDTH)
     rise = splat(-0.5) * load(p, RISE * WIDTH)
     for i in range(size):
-        put_speeds(p, at, INERTIA, i, size, orders, nodes, first, x, ground, rise, load(p, LENGTH * WIDTH),
-                   load(p, row(START + VELOCITY, i)), at.speeds)  # fmt: skip
+        put_speeds(
+            p,
+            at,
+            INERTIA,
+            i,
+            size,
+            orders,
+            nodes,
+            first,
+            x,
+            ground,
+            rise,
+            load(p, LENGTH * WIDTH),
+            load(p, row(START + VELOCITY, i)),
+            at.speeds,
+        )
 
 
 @inner
@@ -63,8 +77,22 @@ def sliding_speeds(p, at, size, orders, nodes, first):
     nothing = splat(0.0)
     for i in range(size):
         h = load(p, LENGTH * WIDTH) * load(p, row(SLIDES, i))
-        put_speeds(p, at, SECOND, i, size, orders, nodes, first, x, nothing, nothing, h,
-                   load(p, row(START + SLIDING, i)), at.slides)  # fmt: skip
+        put_speeds(
+            p,
+            at,
+            SECOND,
+            i,
+            size,
+            orders,
+            nodes,
+            first,
+            x,
+            nothing,
+            nothing,
+            h,
+            load(p, row(START + SLIDING, i)),
+            at.slides,
+        )
 
 
 @inner

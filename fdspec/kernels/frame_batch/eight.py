@@ -95,7 +95,7 @@ else:
             def generic(self, args: Any, kws: Any) -> Any:  # noqa: ARG002
                 return signature(eight, eight, eight) if args == (eight, eight) else None
 
-        @lower_builtin(operation, Eight, Eight)  # type: ignore[untyped-decorator]
+        @lower_builtin(operation, Eight, Eight)
         def _code(context: Any, builder: Any, sig: Any, args: Any) -> Any:  # noqa: ARG001
             return getattr(builder, emit)(*args)
 
@@ -114,7 +114,7 @@ else:
         data = context.make_array(array_type)(context, builder, array).data
         return builder.bitcast(builder.gep(data, [at]), VECTOR.as_pointer())
 
-    @intrinsic  # type: ignore[untyped-decorator]
+    @intrinsic
     def load(typing_context: Any, a: Any, at: Any) -> Any:  # noqa: ARG001
         """Give the eight numbers of a flat array from this place on."""
 
@@ -125,7 +125,7 @@ else:
 
         return eight(a, types.intp), code
 
-    @intrinsic  # type: ignore[untyped-decorator]
+    @intrinsic
     def store(typing_context: Any, a: Any, at: Any, x: Any) -> Any:  # noqa: ARG001
         """Put eight numbers into a flat array from this place on."""
 
@@ -135,7 +135,7 @@ else:
 
         return types.void(a, types.intp, eight), code
 
-    @intrinsic  # type: ignore[untyped-decorator]
+    @intrinsic
     def splat(typing_context: Any, x: Any) -> Any:  # noqa: ARG001
         """Give one number eight times."""
 
@@ -149,7 +149,7 @@ else:
 
         return eight(types.float64), code
 
-    @intrinsic  # type: ignore[untyped-decorator]
+    @intrinsic
     def fma8(typing_context: Any, a: Any, b: Any, c: Any) -> Any:  # noqa: ARG001
         """Give a b + c, rounded once."""
 
@@ -158,7 +158,7 @@ else:
 
         return eight(eight, eight, eight), code
 
-    @intrinsic  # type: ignore[untyped-decorator]
+    @intrinsic
     def less8(typing_context: Any, c: Any, a: Any, b: Any) -> Any:  # noqa: ARG001
         """Give c - a b, rounded once."""
 
@@ -167,7 +167,7 @@ else:
 
         return eight(eight, eight, eight), code
 
-    @intrinsic  # type: ignore[untyped-decorator]
+    @intrinsic
     def abs8(typing_context: Any, a: Any) -> Any:  # noqa: ARG001
         """Give magnitudes."""
 
@@ -176,7 +176,7 @@ else:
 
         return eight(eight), code
 
-    @intrinsic  # type: ignore[untyped-decorator]
+    @intrinsic
     def sqrt8(typing_context: Any, a: Any) -> Any:  # noqa: ARG001
         """Give square roots."""
 
@@ -185,7 +185,7 @@ else:
 
         return eight(eight), code
 
-    @intrinsic  # type: ignore[untyped-decorator]
+    @intrinsic
     def max8(typing_context: Any, a: Any, b: Any) -> Any:  # noqa: ARG001
         """Give the greater of each two, or b where either is no number."""
 
@@ -194,7 +194,7 @@ else:
 
         return eight(eight, eight), code
 
-    @intrinsic  # type: ignore[untyped-decorator]
+    @intrinsic
     def min8(typing_context: Any, a: Any, b: Any) -> Any:  # noqa: ARG001
         """Give the lesser of each two, or b where either is no number."""
 
@@ -203,7 +203,7 @@ else:
 
         return eight(eight, eight), code
 
-    @intrinsic  # type: ignore[untyped-decorator]
+    @intrinsic
     def where_above(typing_context: Any, a: Any, b: Any, x: Any, y: Any) -> Any:  # noqa: ARG001
         """Give x where a > b, else y."""
 
@@ -212,7 +212,7 @@ else:
 
         return eight(eight, eight, eight, eight), code
 
-    @intrinsic  # type: ignore[untyped-decorator]
+    @intrinsic
     def where_in(typing_context: Any, lanes: Any, x: Any, y: Any) -> Any:  # noqa: ARG001
         """Give x in the lanes of a set, else y."""
 
@@ -223,7 +223,7 @@ else:
 
         return eight(types.int64, eight, eight), code
 
-    @intrinsic  # type: ignore[untyped-decorator]
+    @intrinsic
     def above(typing_context: Any, a: Any, b: Any) -> Any:  # noqa: ARG001
         """Give the set of lanes in which a > b; where either is no number it is not."""
 

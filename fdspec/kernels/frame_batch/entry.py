@@ -97,28 +97,67 @@ def renew(p, size):
 
 @inner
 def change(
-    p, at, size, lane, frame, stiffness, damping, model, kind, phase, fresh, touching, state, tally, instants,
-    signs, x, counts, no_times, no_storeys,
-):  # fmt: skip
-    """Make a lane's changes of phase at the fraction x of its step, at which ``end`` stands.
+    p,
+    size,
+    lane,
+    frame,
+    stiffness,
+    damping,
+    model,
+    kind,
+    phase,
+    fresh,
+    touching,
+    state,
+    tally,
+    instants,
+    signs,
+    x,
+    now,
+    radian,
+    counts,
+    no_times,
+    no_storeys,
+):
+    """Make a lane's changes of phase at the fraction x of its step, where the rows END stand.
+
+    now, radian: the time then, s, and as in `fdspec.kernels.frame.guard.search`.
 
     Return how many storeys were looked at and how many changed.
     """
     take_state(p, END, size, lane, state)
     events, changes = change_phases(
-        frame, model, stiffness, damping, kind, phase, fresh, touching, state, tally, instants, signs, x, 0.0,
-        0.0, no_times, no_storeys, no_storeys, 0, counts,
-    )  # fmt: skip
+        frame,
+        model,
+        stiffness,
+        damping,
+        kind,
+        phase,
+        fresh,
+        touching,
+        state,
+        tally,
+        instants,
+        signs,
+        x,
+        now,
+        radian,
+        no_times,
+        no_storeys,
+        no_storeys,
+        0,
+        counts,
+    )
     put_state(p, END, size, lane, state)
     for i in range(size):
         if instants[i] <= x + SAME_INSTANT:
-            put_phase(p, at, size, lane, frame, model, kind, phase, i)
+            put_phase(p, lane, frame, model, phase, i)
         p[row(SPECIAL, i) + lane] = 1.0 if fresh[i] != 0 or touching[i] != 0 else 0.0
     return events, changes
 
 
 @inner
-def forget(p, at, size, lane, fresh, touching):
+def forget(p, size, lane, fresh, touching):
     """A phase that has gone on for a while is no longer special."""
     for i in range(size):
         fresh[i] = 0
@@ -128,10 +167,42 @@ def forget(p, at, size, lane, fresh, touching):
 
 @inner
 def run(
-    frames, dense, stiffnesses, dampings, damped, grounded, loose, ground, dt, certify, radians, p, models, kinds,
-    phases, freshes, touchings, tallies, state, c, instants, signs, alerts, orders, slots, firsts, steps, of_lane, events,
-    transitions, held_rates_, no_times, no_storeys, by_storey, totals,
-):  # fmt: skip
+    frames,
+    dense,
+    stiffnesses,
+    dampings,
+    damped,
+    grounded,
+    loose,
+    ground,
+    dt,
+    certify,
+    radians,
+    p,
+    models,
+    kinds,
+    phases,
+    freshes,
+    touchings,
+    tallies,
+    state,
+    c,
+    instants,
+    signs,
+    alerts,
+    orders,
+    slots,
+    firsts,
+    steps,
+    of_lane,
+    events,
+    transitions,
+    held_rates_,
+    no_times,
+    no_storeys,
+    by_storey,
+    totals,
+):
     """Integrate all histories: arguments as in :func:`integrate_frames`, and room to work in."""
     size = frames.shape[2]
     at = places(size, stiffnesses.shape[1], dampings.shape[1])
@@ -150,10 +221,21 @@ def run(
             if running >> lane & 1 == 0 and waiting < frames.shape[0]:
                 of_lane[lane] = waiting
                 held_rates_[lane] = put_history(
-                    p, at, size, lane, frames[waiting], stiffnesses[dense[waiting]], dampings[dense[waiting]],
-                    models[lane], kinds[lane], phases[lane], freshes[lane], touchings[lane], state,
+                    p,
+                    at,
+                    size,
+                    lane,
+                    frames[waiting],
+                    stiffnesses[dense[waiting]],
+                    dampings[dense[waiting]],
+                    models[lane],
+                    kinds[lane],
+                    phases[lane],
+                    freshes[lane],
+                    touchings[lane],
+                    state,
                     tallies[lane],
-                )  # fmt: skip
+                )
                 steps[lane] = 0
                 events[lane] = 0
                 transitions[lane] = 0
@@ -174,9 +256,29 @@ def run(
         happens = 0
         if found != 0:
             search(
-                p, at, size, found, alerts, frames, of_lane, phases, freshes, touchings, orders, c, instants, signs,
-                slots[0], slots[1], slots[2], slots[3], firsts,
-            )  # fmt: skip
+                p,
+                at,
+                size,
+                dt,
+                steps,
+                found,
+                alerts,
+                frames,
+                of_lane,
+                phases,
+                freshes,
+                touchings,
+                tallies,
+                orders,
+                c,
+                instants,
+                signs,
+                slots[0],
+                slots[1],
+                slots[2],
+                slots[3],
+                firsts,
+            )
             for lane in range(WIDTH):
                 if found >> lane & 1 and firsts[lane] <= 1.0:
                     happens |= 1 << lane
@@ -193,16 +295,34 @@ def run(
             status = OK
             ended = False
             if special >> lane & 1 and x > 0.0:
-                forget(p, at, size, lane, freshes[lane], touchings[lane])
+                forget(p, size, lane, freshes[lane], touchings[lane])
                 special &= ~(1 << lane)
             tau = p[TAU * WIDTH + lane] + p[LENGTH * WIDTH + lane] * x
             if happens >> lane & 1:
                 h = of_lane[lane]
                 looked, changed = change(
-                    p, at, size, lane, frames[h], stiffnesses[dense[h]], dampings[dense[h]], models[lane],
-                    kinds[lane], phases[lane], freshes[lane], touchings[lane], state, tallies[lane],
-                    instants[lane], signs[lane], x, by_storey[h, COUNTS], no_times, no_storeys,
-                )  # fmt: skip
+                    p,
+                    size,
+                    lane,
+                    frames[h],
+                    stiffnesses[dense[h]],
+                    dampings[dense[h]],
+                    models[lane],
+                    kinds[lane],
+                    phases[lane],
+                    freshes[lane],
+                    touchings[lane],
+                    state,
+                    tallies[lane],
+                    instants[lane],
+                    signs[lane],
+                    x,
+                    steps[lane] * dt + tau,
+                    min(dt, 1.0 / p[RATE * WIDTH + lane]),
+                    by_storey[h, COUNTS],
+                    no_times,
+                    no_storeys,
+                )
                 special |= 1 << lane
                 events[lane] += looked
                 transitions[lane] += changed
@@ -221,9 +341,20 @@ def run(
             if status != OK or steps[lane] == last:
                 h = of_lane[lane]
                 finish(
-                    p, at, size, lane, frames[h], stiffnesses[dense[h]], phases[lane], state, tallies[lane],
-                    transitions[lane], status, certify, by_storey[h], totals[h],
-                )  # fmt: skip
+                    p,
+                    size,
+                    lane,
+                    frames[h],
+                    stiffnesses[dense[h]],
+                    phases[lane],
+                    state,
+                    tallies[lane],
+                    transitions[lane],
+                    status,
+                    certify,
+                    by_storey[h],
+                    totals[h],
+                )
                 running &= ~(1 << lane)
                 special &= ~(1 << lane)
                 orders[lane] = 0
@@ -267,8 +398,8 @@ def integrate_frames(
     """Integrate histories of frames of N storeys from rest, none of whose braces is massless.
 
     frames (m, FRAME_ROWS, N); stiffnesses, dampings (b, N, N), or (b, 0, 0): the dense matrices, of which
-    history i takes number dense[i]; see :mod:`fdspec.kernels.frame.model`.  damped, grounded, loose: whether any
-    dashpot stands between neighbours, any spring or dashpot on the ground, any dashpot beside a brace.
+    history i takes number dense[i]; see :mod:`fdspec.kernels.frame.model`.  damped, grounded, loose: whether
+    any dashpot stands between neighbours, any spring or dashpot on the ground, any dashpot beside a brace.
     ground: acceleration at the samples dt apart, m/s2, (n,).  radians: longest phase of a step.
 
     by_storey (m, len(STOREY_RESULTS), N), totals (m, len(TOTALS)): results.  viscous_energy and
@@ -279,12 +410,39 @@ def integrate_frames(
     room = np.zeros(places(size, stiffnesses.shape[1], dampings.shape[1]).size + LINE)
     first = -(room.ctypes.data // room.itemsize) % LINE
     run(
-        frames, dense, stiffnesses, dampings, damped, grounded, loose, ground, dt, certify, radians, room[first:],
-        np.zeros((WIDTH, MODEL_ROWS, size)), np.zeros((WIDTH, size), np.int64), np.zeros((WIDTH, size), np.int64),
-        np.zeros((WIDTH, size), np.int64), np.zeros((WIDTH, size), np.int64),
-        np.zeros((WIDTH, TALLY_ROWS, size)), np.zeros((4, size)), np.zeros(TERMS + 2), np.zeros((WIDTH, size)),
-        np.zeros((WIDTH, size), np.int64), np.zeros(size, np.int64), np.zeros(WIDTH, np.int64),
-        np.zeros((4, WIDTH), np.int64), np.zeros(WIDTH),
-        np.zeros(WIDTH, np.int64), np.zeros(WIDTH, np.int64), np.zeros(WIDTH, np.int64),
-        np.zeros(WIDTH, np.int64), np.zeros(WIDTH), np.zeros(0), np.zeros(0, np.int64), by_storey, totals,
-    )  # fmt: skip
+        frames,
+        dense,
+        stiffnesses,
+        dampings,
+        damped,
+        grounded,
+        loose,
+        ground,
+        dt,
+        certify,
+        radians,
+        room[first:],
+        np.zeros((WIDTH, MODEL_ROWS, size)),
+        np.zeros((WIDTH, size), np.int64),
+        np.zeros((WIDTH, size), np.int64),
+        np.zeros((WIDTH, size), np.int64),
+        np.zeros((WIDTH, size), np.int64),
+        np.zeros((WIDTH, TALLY_ROWS, size)),
+        np.zeros((4, size)),
+        np.zeros(TERMS + 2),
+        np.zeros((WIDTH, size)),
+        np.zeros((WIDTH, size), np.int64),
+        np.zeros(size, np.int64),
+        np.zeros(WIDTH, np.int64),
+        np.zeros((4, WIDTH), np.int64),
+        np.zeros(WIDTH),
+        np.zeros(WIDTH, np.int64),
+        np.zeros(WIDTH, np.int64),
+        np.zeros(WIDTH, np.int64),
+        np.zeros(WIDTH, np.int64),
+        np.zeros(WIDTH),
+        np.zeros(0),
+        np.zeros(0, np.int64),
+        by_storey,
+        totals,
+    )

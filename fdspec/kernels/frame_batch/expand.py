@@ -97,9 +97,9 @@ def add_stiffness(p, at, size):
 def expand(p, at, size, orders, dense_stiffness, dense_damping, damped, grounded):
     """Fill the series of ``orders`` terms over the steps that start at the state in the rows START.
 
-    Beside them the sums of all masses times their accelerations.  dense_stiffness, dense_damping: whether there
-    are such matrices; damped: whether dashpots stand between neighbours, grounded: whether floors hold to the
-    ground.
+    Beside them the sums of all masses times their accelerations.  dense_stiffness, dense_damping: whether
+    there are such matrices; damped: whether dashpots stand between neighbours, grounded: whether
+    floors hold to the ground.
     """
     wide()
     h = load(p, LENGTH * WIDTH)

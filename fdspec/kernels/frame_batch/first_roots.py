@@ -1,8 +1,9 @@
-"""First roots of eight polynomials at once, by the bounds of :mod:`fdspec.kernels.mathematics.polynomial_roots`.
+"""First roots of eight polynomials at once.
 
-Each begins above zero and is looked at on the four quarters of [0, 1], one after another: its Bezier
-ordinates clear a quarter, or its slope or its curvature, which provably keep one sign there, leave room for
-one crossing at most, and Newton's method goes there.  What none of these decides is left to the scalar search.
+Each begins above zero and is looked at on the four quarters of [0, 1]: its Bezier ordinates clear a quarter,
+or its slope or its curvature, which provably keep one sign there, leave room for one crossing at most, and
+Newton's method goes there.  The bounds are those of :mod:`fdspec.kernels.mathematics.polynomial_roots`; what
+they leave undecided is for its scalar search.
 """
 
 from __future__ import annotations

@@ -47,9 +47,9 @@ def alert(p, at, size, alerts):
     """Set alerts[i] to the lanes in which storey i must be searched; return the lanes that have any.
 
     A quantity that begins with two known terms stays between their values at both ends, give or take the sum
-    of the magnitudes of the others.  That clears reactions, and short slips.  In a longer slip the brace swings
-    about the floor below with an amplitude that grows by no more than that floor's jerk makes it: the floors'
-    own motion may then carry the slip on.
+    of the magnitudes of the others.  That clears reactions, and short slips.  In a longer slip the brace
+    swings about the floor below with an amplitude that grows by no more than that floor's jerk makes
+    it: the floors' own motion may then carry the slip on.
     """
     wide()
     h = load(p, LENGTH * WIDTH)

@@ -55,7 +55,7 @@ from fdspec.kernels.types import ENERGY_NOT_CLOSED, ENERGY_TOLERANCE, NON_FINITE
 
 
 @inner
-def put_phase(p, at, size, lane, frame, model, kind, phase, i):
+def put_phase(p, lane, frame, model, phase, i):
     """Bring the lane's numbers of storey i in line with its phase."""
     set_phase(frame, model, phase, i)
     sticks = phase[i] == STICK
@@ -113,7 +113,7 @@ def put_history(
         p[row(SLOWNESS, i) + lane] = model[rows.SLOWNESS, i] if brace > 0.0 else 0.0
         slowness = p[row(SLOWNESS, i) + lane]
         p[row(OMEGA, i) + lane] = 1.0 / slowness if slowness > 0.0 else 0.0
-        put_phase(p, at, size, lane, frame, model, kind, phase, i)
+        put_phase(p, lane, frame, model, phase, i)
     for i in range(stiffness.shape[0]):
         for j in range(size):
             p[at.stiffness + (i * size + j) * WIDTH + lane] = stiffness[i, j]
@@ -155,8 +155,9 @@ def is_finite(p, block, size, lane):
 
 
 @inner
-def finish(p, at, size, lane, frame, stiffness, phase, state, tally, transitions, status, certify, by_storey,
-           totals):  # fmt: skip
+def finish(
+    p, size, lane, frame, stiffness, phase, state, tally, transitions, status, certify, by_storey, totals
+):
     """Fill a history's results, as `fdspec.kernels.frame.history.integrate` does, from the rows END."""
     take_state(p, END, size, lane, state)
     friction = 0.0

@@ -15,8 +15,8 @@ from fdspec.kernels.frame_batch.eight import WIDTH
 # Rows of a history.
 LENGTH, ORDER, GROUND, RISE, FRACTION, TAU, RATE, INPUT, MOST_INPUT, VISCOUS = range(10)
 """Length of the step (s) and order of its series; ground acceleration at its start and its change over it,
-m/s2; part of the step that is taken; time since the record's sample, s; fastest rate, 1/s; work of the ground, the
-largest it has been, and that into dashpots, J."""
+m/s2; part of the step that is taken; time since the record's sample, s; fastest rate, 1/s; work of the
+ground, the largest it has been, and that into dashpots, J."""
 HISTORY_ROWS: Final = 10
 
 # Rows of a storey: what it is, and what its phase makes of it.
@@ -42,20 +42,20 @@ HISTORY_ROWS: Final = 10
     SLOWNESS,
     OMEGA,
 ) = range(20)
-"""COMPLIANCE, HELD, FRICTION as in `fdspec.kernels.frame.model`.  OF_FLOOR and OF_BRACE weigh the forces on floor
-and brace in what decides the storey's phase: its reaction while it sticks, the acceleration of its sliding
-while it slips.  SLIDES is then 1, else 0, SIGN its direction, LOOSE_MASS the brace's mass, else 0.  LIMIT: slip
-force, infinite without a brace; SPECIAL: 1 where a phase has just begun; OVER_BRACE: 1 / m_d, SLOWNESS:
-sqrt(m_d / k_d), OMEGA its inverse, 0 without a brace."""
+"""COMPLIANCE, HELD, FRICTION as in `fdspec.kernels.frame.model`.  OF_FLOOR and OF_BRACE weigh the forces on
+floor and brace in what decides the storey's phase: its reaction while it sticks, the acceleration of
+its sliding while it slips.  SLIDES is then 1, else 0, SIGN its direction, LOOSE_MASS the brace's mass,
+else 0.  LIMIT: slip force, infinite without a brace; SPECIAL: 1 where a phase has just begun;
+OVER_BRACE: 1 / m_d, SLOWNESS: sqrt(m_d / k_d), OMEGA its inverse, 0 without a brace."""
 
 START, END, NOW = 20, 24, 28
-"""First of the rows of a state, as in `fdspec.kernels.frame.taylor`: at the start of the step, at the end of what is
-taken of it, and coefficients of the power in hand."""
+"""First of the rows of a state, as in `fdspec.kernels.frame.taylor`: at the start of the step, at the end of
+what is taken of it, and coefficients of the power in hand."""
 PULL: Final = 32
 """What dense matrices ask for, N."""
 REACH: Final = 33
 INERTIA_REACH, JERK_REACH, BEND_REACH, SECOND_REACH = range(4)
-"""Sums over k >= 1 of |I_k|, k |I_k|, k (k - 1) |I_k|, |Q_k|; see :mod:`fdspec.kernels.frame_batch.expand`."""
+"""Sums over k >= 1 of |I_k|, k |I_k|, k (k - 1) |I_k| and |Q_k|, series of `expand`."""
 PEAK: Final = 37
 PEAKS: Final = 6
 """Peaks so far, in the order of `fdspec.kernels.frame.peaks`."""

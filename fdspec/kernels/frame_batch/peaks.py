@@ -139,8 +139,8 @@ def raise_peaks(p, at, size, lanes, orders, c):
             turns |= ~sticks
         of_brace = lanes & turns & above(most, top)
 
-        # The storey shear carries the inertia of all masses above; a slipping brace's is that of the floor below
-        # it and of its swing about that, which does not go beyond its bound.
+        # The storey shear carries the inertia of all masses above; a slipping brace's is that of the floor
+        # below it and of its swing about that, which does not go beyond its bound.
         mass = load(p, row(MASS, i))
         loose = load(p, row(LOOSE_MASS, i))
         shear = less8(fma8(mass, inertia, shear), loose, second)
@@ -166,22 +166,22 @@ def raise_peaks(p, at, size, lanes, orders, c):
                     take_acceleration(p, at, i, lane, n, x, c)
                     raise_peak(p, row(PEAK + PEAK_ACCELERATION, i) + lane, c, n - 1)
                 if of_velocity >> lane & 1:
-                    take_velocity(p, at, size, i, lane, n, x, c)
+                    take_velocity(p, at, i, lane, n, x, c)
                     raise_peak(p, row(PEAK + PEAK_VELOCITY, i) + lane, c, n)
                 if of_displacement >> lane & 1:
                     clear(c, n + 1)
-                    add_displacement(p, at, size, i, lane, n, x, 1.0, c)
+                    add_displacement(p, at, i, lane, n, x, 1.0, c)
                     raise_peak(p, row(PEAK + PEAK_DISPLACEMENT, i) + lane, c, n + 1)
                 if of_drift >> lane & 1:
                     clear(c, n + 1)
-                    add_displacement(p, at, size, i, lane, n, x, 1.0, c)
+                    add_displacement(p, at, i, lane, n, x, 1.0, c)
                     if i > 0:
-                        add_displacement(p, at, size, i - 1, lane, n, x, -1.0, c)
+                        add_displacement(p, at, i - 1, lane, n, x, -1.0, c)
                     raise_peak(p, row(PEAK + PEAK_DRIFT, i) + lane, c, n + 1)
                 if of_brace >> lane & 1:
                     clear(c, n + 1)
-                    add_displacement(p, at, size, i, lane, n, x, 1.0, c)
-                    take_off_offset(p, at, size, i, lane, n, x, c)
+                    add_displacement(p, at, i, lane, n, x, 1.0, c)
+                    take_off_offset(p, at, i, lane, n, x, c)
                     raise_peak(p, row(PEAK + PEAK_BRACE_DISPLACEMENT, i) + lane, c, n + 1)
                 if of_shear >> lane & 1:
                     take_shear(p, at, size, i, lane, n, x, c)
@@ -200,7 +200,7 @@ def raised(p, which, i, start, end):
 
 @inlined
 def may_turn(start, end, sway):
-    """The lanes in which a rate with these values at both ends may be zero: it leaves them by ``sway`` at most."""
+    """The lanes in which a rate, at most ``sway`` off these values at both ends, may be zero in between."""
     ahead = above(min8(start, end), sway)
     back = above(splat(0.0) - max8(start, end), sway)
     return ALL & ~(ahead | back)
@@ -240,7 +240,7 @@ def relative(p, at, i, lane, k):
 
 
 @inner
-def take_velocity(p, at, size, i, lane, n, x, c):
+def take_velocity(p, at, i, lane, n, x, c):
     """Velocity of floor i, as above."""
     power = p[LENGTH * WIDTH + lane] * x
     c[0] = p[row(START + VELOCITY, i) + lane]
@@ -250,7 +250,7 @@ def take_velocity(p, at, size, i, lane, n, x, c):
 
 
 @inner
-def add_displacement(p, at, size, i, lane, n, x, sign, c):
+def add_displacement(p, at, i, lane, n, x, sign, c):
     """Add the displacement of floor i, times sign, to a series as above."""
     step = p[LENGTH * WIDTH + lane] * x
     c[0] += sign * p[row(START + DISPLACEMENT, i) + lane]
@@ -262,7 +262,7 @@ def add_displacement(p, at, size, i, lane, n, x, sign, c):
 
 
 @inner
-def take_off_offset(p, at, size, i, lane, n, x, c):
+def take_off_offset(p, at, i, lane, n, x, c):
     """Take the slip offset of storey i off a series as above."""
     step = p[LENGTH * WIDTH + lane] * x
     c[0] -= p[row(START + OFFSET, i) + lane]

@@ -7,11 +7,23 @@ a time, of whichever histories they are.
 from __future__ import annotations
 
 from fdspec.compiler.options import inner
+from fdspec.kernels.frame.guard import first_root_after
 from fdspec.kernels.frame.model import SLIP_FORCE
+from fdspec.kernels.frame.reset import LAST, patience
 from fdspec.kernels.frame.taylor import SLIDING, TERMS
 from fdspec.kernels.frame_batch.eight import ALL, WIDTH
 from fdspec.kernels.frame_batch.first_roots import first_roots
-from fdspec.kernels.frame_batch.layout import LENGTH, REACH, SECOND, SECOND_REACH, START, row, term
+from fdspec.kernels.frame_batch.layout import (
+    LENGTH,
+    RATE,
+    REACH,
+    SECOND,
+    SECOND_REACH,
+    START,
+    TAU,
+    row,
+    term,
+)
 from fdspec.kernels.mathematics.oscillator import INVERSE
 from fdspec.kernels.mathematics.polynomial_roots import NO_ROOT, first_root
 from fdspec.kernels.types import STICK
@@ -62,8 +74,48 @@ def gather(p, at, i, lane, slot, n, sign, limit, vanishing, slides, terms):
 
 
 @inner
-def search(p, at, size, lanes, alerts, frames, of_lane, phases, freshes, touchings, orders, terms, instants,
-           signs, slot_lane, slot_storey, slot_sign, slot_order, firsts):  # fmt: skip
+def patience_of(p, lane, dt, step, tally, i):
+    """Fraction of the step for which a damper without friction is left in its phase."""
+    radian = min(dt, 1.0 / p[RATE * WIDTH + lane])
+    now = step * dt + p[TAU * WIDTH + lane]
+    return max(0.0, tally[LAST, i] + patience(tally, i, radian) - now) / p[LENGTH * WIDTH + lane]
+
+
+@inner
+def root_after(p, at, i, lane, n, sign, waits, terms):
+    """Where the sliding velocity of storey i comes to zero after the fraction ``waits`` of the step."""
+    h = p[LENGTH * WIDTH + lane]
+    terms[0] = p[row(START + SLIDING, i) + lane]
+    for k in range(n):
+        terms[k + 1] = p[term(at, SECOND, i, k) + lane] * (h * INVERSE[k + 1])
+    return first_root_after(terms, n, sign, waits)
+
+
+@inner
+def search(
+    p,
+    at,
+    size,
+    dt,
+    steps,
+    lanes,
+    alerts,
+    frames,
+    of_lane,
+    phases,
+    freshes,
+    touchings,
+    tallies,
+    orders,
+    terms,
+    instants,
+    signs,
+    slot_lane,
+    slot_storey,
+    slot_sign,
+    slot_order,
+    firsts,
+):
     """Fill instants[lane, i], the fraction of the step at which storey i changes, and signs[lane, i].
 
     firsts[lane]: the smallest instant, NO_ROOT where there is none.  lanes: those with alerts.
@@ -86,6 +138,16 @@ def search(p, at, size, lanes, alerts, frames, of_lane, phases, freshes, touchin
             q = term(at, SECOND, i, 0) + lane
             limit = frames[of_lane[lane], SLIP_FORCE, i]
             room = limit - p[row(REACH + SECOND_REACH, i) + lane]
+            if limit == 0.0:
+                waits = patience_of(p, lane, dt, steps[lane], tallies[lane], i)
+                if waits >= 1.0:
+                    continue
+                if waits > 0.0:
+                    x = root_after(p, at, i, lane, orders[lane], float(phase), waits, terms)
+                    instants[lane, i] = x
+                    signs[lane, i] = phase
+                    firsts[lane] = min(firsts[lane], x)
+                    continue
             if fresh > 1 and phase != STICK:
                 p[q] = 0.0
             for sign in (1, -1):
@@ -97,8 +159,9 @@ def search(p, at, size, lanes, alerts, frames, of_lane, phases, freshes, touchin
                     vanishing = fresh
                 elif sign * p[q] < room:
                     continue
-                n = gather(p, at, i, lane, filled, orders[lane], float(sign), limit, vanishing, phase != STICK,
-                           terms)  # fmt: skip
+                n = gather(
+                    p, at, i, lane, filled, orders[lane], float(sign), limit, vanishing, phase != STICK, terms
+                )
                 if n < 0:
                     if instants[lane, i] > 0.0:
                         instants[lane, i] = 0.0
@@ -113,13 +176,26 @@ def search(p, at, size, lanes, alerts, frames, of_lane, phases, freshes, touchin
                 most = max(most, n)
                 filled += 1
                 if filled == WIDTH:
-                    settle(p, at, filled, most, terms, instants, signs, slot_lane, slot_storey, slot_sign,
-                           slot_order, firsts)  # fmt: skip
+                    settle(
+                        p,
+                        at,
+                        filled,
+                        most,
+                        terms,
+                        instants,
+                        signs,
+                        slot_lane,
+                        slot_storey,
+                        slot_sign,
+                        slot_order,
+                        firsts,
+                    )
                     filled = 0
                     most = 0
     if filled > 0:
-        settle(p, at, filled, most, terms, instants, signs, slot_lane, slot_storey, slot_sign, slot_order,
-               firsts)  # fmt: skip
+        settle(
+            p, at, filled, most, terms, instants, signs, slot_lane, slot_storey, slot_sign, slot_order, firsts
+        )
 
 
 @inner
