@@ -44,7 +44,7 @@ def encode(
     bytes
         The same for the same figure. Text in a PDF is embedded as TrueType (Type 42).
     """
-    from fdspec import __version__
+    from fdspec.version import __version__
 
     told = title or next(iter(str(figure.get_label() or figure.get_suptitle()).splitlines()), "")
     metadata = {**DATELESS[kind], AUTHOR[kind]: author or f"fdspec {__version__}"}
