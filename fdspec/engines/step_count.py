@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from fdspec.engines.many_storeys import rates_of
 from fdspec.errors import InvalidInput
 from fdspec.kernels.devices import layout as row
-from fdspec.kernels.frame.history import RADIANS as FRAME_RADIANS
+from fdspec.kernels.frame.results import RADIANS as FRAME_RADIANS
 from fdspec.kernels.storey.constants import RADIANS
 from fdspec.model.building import Building
 

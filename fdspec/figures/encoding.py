@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any, Final
 
 import matplotlib as mpl
 
+from fdspec.figures.fonts import give_glyphs
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -48,6 +50,7 @@ def encode(
     metadata = {**DATELESS[kind], AUTHOR[kind]: author or f"fdspec {__version__}"}
     if told:
         metadata["Title"] = told
+    give_glyphs(figure)
     file = io.BytesIO()
     # SVG names its parts after random numbers unless it has a salt; journals refuse the fonts of Type 3.
     with mpl.rc_context({"svg.hashsalt": "fdspec", "pdf.fonttype": 42}):

@@ -15,7 +15,6 @@ import numpy as np
 from numba import types
 
 from fdspec.compiler.options import entry, float1d, float2d, float3d, inner, int1d
-from fdspec.compiler.positions import positions
 from fdspec.kernels.frame.energy import (
     input_work,
     stored_energy,
@@ -49,6 +48,7 @@ from fdspec.kernels.frame.reset import (
     stay_sprung,
     travel_so_far,
 )
+from fdspec.kernels.frame.results import COUNTS, END, END_ROWS, NO_TIME, RESULT, TOTAL
 from fdspec.kernels.frame.step import change_phases, look_ahead
 from fdspec.kernels.frame.taylor import (
     DISPLACEMENT,
@@ -75,40 +75,6 @@ from fdspec.kernels.types import (
 
 given1d = types.Array(types.float64, 1, "C", readonly=True)
 given2d = types.Array(types.float64, 2, "C", readonly=True)
-
-RADIANS = 2.5
-"""Longest phase of a step; no result depends on it."""
-
-STOREY_RESULTS = (
-    "peak_acceleration",
-    "peak_displacement",
-    "peak_velocity",
-    "peak_drift",
-    "peak_storey_shear",
-    "peak_brace_displacement",
-    "residual_displacement",
-    "residual_brace_displacement",
-    "slip_travel",
-    "storey_transitions",
-    "storey_friction_energy",
-)
-"""First rows of ``by_storey`` (18, N); the first six of them are the peaks."""
-RESULT = positions(STOREY_RESULTS)
-
-END = len(STOREY_RESULTS)
-END_ROWS = 7
-"""First row and number of the rows that follow, the state at the end: displacement, velocity, offset, sliding
-velocity, phase, and how the next segment begins."""
-
-COUNTS = RESULT.storey_transitions
-"""Row of the number of changes of phase."""
-
-TOTALS = ("transitions", "dissipated_energy", "viscous_energy", "input_energy", "energy_error", "status")
-"""Entries of ``totals`` (6,)."""
-TOTAL = positions(TOTALS)
-
-NO_TIME = 1e-13
-"""Fraction of a record step that counts as its end."""
 
 
 @inner
