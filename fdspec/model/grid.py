@@ -41,7 +41,7 @@ class Grid:
     normal_force_factor : float
         Newtons on the sliding surface for each newton of `pretension`: 2 n_b where `pretension` is the force
         of one of n_b bolts that clamp two faces.
-    storey_height, yield_shear, hardening_ratio, gravity_load, slot_length, slot_stiffness,
+    storey_height, yield_shear, hardening_ratio, gravity_load, slot_length, slot_stiffness, \
     recentring_stiffness : float
         Devices of all frames alike, as for `fdspec.Building`.
 

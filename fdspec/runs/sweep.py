@@ -109,7 +109,7 @@ def sweep(
         Of the frame without its brace, and of the brace on its own.
     friction_coefficient, kinetic_friction_coefficient, normal_force_factor : float
         Slip force = friction_coefficient * normal_force_factor * pretension.
-    storey_height, yield_shear, hardening_ratio, gravity_load, slot_length, slot_stiffness,
+    storey_height, yield_shear, hardening_ratio, gravity_load, slot_length, slot_stiffness, \
     recentring_stiffness : float, optional
         Devices of all frames alike, as for `fdspec.Building`: columns that yield, gravity, slots, re-centring
         springs.  With them each history is integrated by itself, a thousand times slower, the cube has the
