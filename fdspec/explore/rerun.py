@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from fdspec.errors import InvalidInput
-from fdspec.explore.motions import Motions
+from fdspec.explore.motions import Found, Motions
 from fdspec.explore.traces import LOOP_FINER, packed_history
 from fdspec.model.building import Building
 from fdspec.model.grid import DEVICE_FIELDS
@@ -75,7 +75,11 @@ class Rerun:
         """
         self.check(record=record, stiffness_ratio=stiffness_ratio, pretension=pretension, period=period)
         found = self.motions.find(str(self.cube["record"].values[record]))
-        frame = self.building(stiffness_ratio, pretension, period)
+        return self.simulated(self.building(stiffness_ratio, pretension, period), found, finer)
+
+    @staticmethod
+    def simulated(frame: Building, found: Found, finer: int) -> tuple[xr.Dataset, str]:
+        """Return a frame's history, refused where it would keep the page waiting, and its notice."""
         seconds = seconds_of_history(frame, found.motion.dt, found.motion.n)
         refuse_long(seconds, PAGE_HOURS, "this history")
         return simulate(frame, found.motion, dt_out=found.motion.dt / finer), found.notice
