@@ -9,7 +9,7 @@ import click
 from fdspec.cli.device_options import device_options, given
 from fdspec.cli.echo import echo
 from fdspec.cli.output import force_option, free
-from fdspec.cli.record_options import file_options, named_records
+from fdspec.cli.record_options import RecordsOption, file_options, named_records
 
 if TYPE_CHECKING:
     from fdspec.model.building import Building
@@ -21,6 +21,7 @@ PAGES = (".html", ".htm")
 @click.option(
     "--record",
     "records",
+    cls=RecordsOption,
     multiple=True,
     metavar="NAME|FILE",
     help="A record of the catalogue, or a file; repeat it.  [default: the study's nine]",

@@ -12,7 +12,8 @@ from fdspec.explore.motions import Motions
 from fdspec.explore.traces import LOOP_FINER, packed_history
 from fdspec.model.building import Building
 from fdspec.model.grid import DEVICE_FIELDS
-from fdspec.runs.bounds import refuse_long, seconds_of_history
+from fdspec.runs.bounds import refuse_long
+from fdspec.runs.cost import seconds_of_history
 from fdspec.runs.simulate import simulate
 
 if TYPE_CHECKING:

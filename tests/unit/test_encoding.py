@@ -6,7 +6,7 @@ import zlib
 import pytest
 from matplotlib.figure import Figure
 
-from fdspec import __version__
+from fdspec.version import __version__
 from fdspec.figures import encode
 
 

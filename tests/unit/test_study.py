@@ -118,6 +118,12 @@ def test_an_axis_may_be_a_table() -> None:
     assert study.grid.period.tolist() == [0.1, 0.2, 0.3]
 
 
+UNKNOWN_KEY = (
+    "records: unknown key 'unit' of a record; "
+    "known are path, units, dt, channel, name, skip, layout, resample_to"
+)
+
+
 @pytest.mark.parametrize(
     ("line", "mistake"),
     [
@@ -161,7 +167,7 @@ def test_an_axis_may_be_a_table() -> None:
         ("records = ['FSR1', 2]", "records: must be a name, a path or a table, got 2"),
         (
             "records = [{ path = 'a.txt', unit = 'g' }]",
-            "records: unknown key 'unit' of a record; known are path, units, dt, channel, name",
+            UNKNOWN_KEY,
         ),
         ("records = [{ units = 'g' }]", "records: a record given as a table needs path, its file"),
         (

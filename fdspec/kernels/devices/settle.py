@@ -34,6 +34,7 @@ from fdspec.kernels.devices.layout import (
     A,
     O,
 )
+from fdspec.kernels.friction import sliding_force
 from fdspec.kernels.types import STICK
 
 FIXED = 0
@@ -131,7 +132,7 @@ def excess_of(frame, state, series, node, roles, balance, acceleration):
 @inner
 def across_moving(frame, state, j):
     """Friction (N) of a plate in motion."""
-    return state.mode[PHASE, j] * frame.links[KINETIC, j]
+    return sliding_force(state.mode[PHASE, j], frame.links[KINETIC, j])
 
 
 @inner
