@@ -64,7 +64,7 @@ cube = fdspec.sweep(
     **columns,
 )
 assert (cube.status == 0).all()
-best = ratio[cube.ductility.squeeze().mean("record").argmin().item()]
+best = ratio[cube.ductility.squeeze().mean("record").values.argmin()]
 print(f"least mean ductility at a slip force of {best:g} times the yield shear")
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4), layout="constrained")
