@@ -12,10 +12,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fdspec.engines.many_storeys import rates_of
 from fdspec.errors import InvalidInput
 from fdspec.kernels.devices import layout as row
-from fdspec.kernels.frame.history import RADIANS as FRAME_RADIANS
 from fdspec.kernels.storey.constants import RADIANS
 from fdspec.model.building import Building
 
@@ -67,6 +65,10 @@ def steps_of_building(building: Building, dt: float) -> float:
     """Return the most steps that a history takes in each record step of dt, s, changes not counted."""
     if building.n_storeys == 1 and not building.has_devices:
         return float(steps_of_storeys(np.array(building.storey), dt, 1))
+    # Imported here: loading the kernels for many storeys is nothing that a sweep of single storeys waits for.
+    from fdspec.engines.many_storeys import rates_of
+    from fdspec.kernels.frame.history import RADIANS as FRAME_RADIANS
+
     fastest = float(rates_of(building.frame).max())
     if building.has_devices:
         fastest = max(fastest, float(_link_rates(building).max(initial=0.0)))
