@@ -136,16 +136,16 @@ class Bench:
 
     @staticmethod
     def peaks_of(building: Building, motion: GroundMotion) -> dict[str, FloatArray]:
-        """Peaks (N,) of every storey, by name: `fdspec.kernels.frame.history.STOREY_RESULTS`."""
+        """Peaks (N,) of every storey, by name: `fdspec.kernels.frame.results.STOREY_RESULTS`."""
         if building.has_devices:
             from fdspec.engines.devices import peaks_of as peaks_with_devices
 
             return peaks_with_devices(building, motion)[0]
-        from fdspec.engines.many_storeys import peaks_of
-        from fdspec.kernels.frame.history import STOREY_RESULTS
+        from fdspec.engines.frames import peaks_of_frames
+        from fdspec.kernels.frame.results import STOREY_RESULTS
 
-        by_storey, _ = peaks_of(building.frame, motion, certify=False)
-        return dict(zip(STOREY_RESULTS, by_storey, strict=True))
+        by_storey, _ = peaks_of_frames([building.frame], motion, certify=False)
+        return dict(zip(STOREY_RESULTS, by_storey[0], strict=True))
 
     @cached_property
     def _stuck(self) -> Building:
@@ -260,7 +260,7 @@ def _run(
             motions,
             tasks,
             each=1,
-            warm=_warm,
+            warm=partial(_warm, building, needs),
             workers=workers,
             scheduler="threads",
             progress=False,
@@ -271,10 +271,18 @@ def _run(
     return dict(zip(RESPONSES, table, strict=True))
 
 
-def _warm() -> None:
-    import fdspec.engines.batch
-    import fdspec.engines.many_storeys
-    import fdspec.engines.strain  # noqa: F401
+def _warm(building: Building, needs: Collection[str]) -> None:
+    if building.n_storeys == 1:
+        import fdspec.engines.batch
+    else:
+        from fdspec.engines.frames import runs_beside_others
+
+        if building.has_devices:
+            import fdspec.engines.devices
+        if not runs_beside_others(building.frame):
+            import fdspec.engines.many_storeys
+    if set(STRAIN) & set(needs):
+        import fdspec.engines.strain  # noqa: F401
 
 
 def _run_storey(
@@ -352,18 +360,18 @@ def _run_frame(
     motion: GroundMotion,
 ) -> FloatArray:
     """Run a frame with some of the rows of slip forces (c, N): (len(RESPONSES), items)."""
-    from fdspec.engines.many_storeys import peaks_of
-    from fdspec.engines.strain import strain_of_frame
-    from fdspec.kernels.frame.history import STOREY_RESULTS, TOTALS
+    from fdspec.engines.frames import peaks_of_frames
+    from fdspec.kernels.frame.results import STOREY_RESULTS, TOTALS
 
+    frames = [_with(frame, slip_force[item], kinetic_slip_force[item]) for item in items]
+    by_storey, totals = peaks_of_frames(frames, motion, certify=False)
     table = np.full((len(RESPONSES), items.size), np.nan)
-    for column, item in enumerate(items):
-        one = _with(frame, slip_force[item], kinetic_slip_force[item])
-        by_storey, totals = peaks_of(one, motion, certify=False)
-        row = dict(zip(STOREY_RESULTS, by_storey, strict=True))
-        total = dict(zip(TOTALS, totals, strict=True))
-        found = _largest(row, total)
+    for column, one in enumerate(frames):
+        row = dict(zip(STOREY_RESULTS, by_storey[column], strict=True))
+        found = _largest(row, dict(zip(TOTALS, totals[column], strict=True)))
         if set(STRAIN) & set(needs):
+            from fdspec.engines.strain import strain_of_frame
+
             found |= dict(zip(STRAIN, strain_of_frame(one, motion)[:2], strict=True))
         table[:, column] = [found.get(name, np.nan) for name in RESPONSES]
     return table

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fdspec.errors import InvalidInput
 from fdspec.kernels.devices import layout as row
+from fdspec.kernels.frame.results import RADIANS as FRAME_RADIANS
 from fdspec.kernels.storey.constants import RADIANS
 from fdspec.model.building import Building
 
@@ -67,7 +68,6 @@ def steps_of_building(building: Building, dt: float) -> float:
         return float(steps_of_storeys(np.array(building.storey), dt, 1))
     # Imported here: loading the kernels for many storeys is nothing that a sweep of single storeys waits for.
     from fdspec.engines.many_storeys import rates_of
-    from fdspec.kernels.frame.history import RADIANS as FRAME_RADIANS
 
     fastest = float(rates_of(building.frame).max())
     if building.has_devices:

@@ -100,6 +100,6 @@ def test_sweeps_cost_what_the_model_says(name: str) -> None:
 
 
 def test_a_sweep_of_single_storeys_loads_no_kernels_of_several() -> None:
-    code = "import sys, fdspec.runs.sweep; print([name for name in sys.modules if 'kernels.frame' in name])"
+    code = "import sys, fdspec.runs.sweep; print([name for name in sys.modules if 'frame.history' in name])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"

@@ -16,7 +16,7 @@ from numba import types
 from fdspec.compiler.options import entry, float1d, inner
 from fdspec.kernels.frame.energy import strain_energy
 from fdspec.kernels.frame.groups_of_four import LANES
-from fdspec.kernels.frame.history import NO_TIME, given1d, given2d, widen
+from fdspec.kernels.frame.history import given1d, given2d, widen
 from fdspec.kernels.frame.model import (
     BRACE_STIFFNESS,
     GROUND_STIFFNESS,
@@ -35,6 +35,7 @@ from fdspec.kernels.frame.model import (
     set_phase,
 )
 from fdspec.kernels.frame.reset import TALLY_ROWS, begin_slip
+from fdspec.kernels.frame.results import NO_TIME
 from fdspec.kernels.frame.step import change_phases, look_ahead
 from fdspec.kernels.frame.taylor import (
     DISPLACEMENT,
