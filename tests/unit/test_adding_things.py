@@ -32,9 +32,11 @@ OUTPUT: Edits = {
         ('    "status",\n', '    "status",\n    "end_velocity",\n'),
         (STATUS, f"{STATUS}    result[RESULT.end_velocity] = motion.v\n"),
     ],
-    "fdspec/kernels/frame/history.py": [
+    "fdspec/kernels/frame/results.py": [
         ('    "storey_friction_energy",\n', '    "storey_friction_energy",\n    "end_velocity",\n'),
-        (TRAVEL, f"{TRAVEL}        by_storey[RESULT.end_velocity, i] = state[VELOCITY, i]\n"),
+    ],
+    "fdspec/kernels/frame/finish.py": [
+        (TRAVEL, f"{TRAVEL}        by_storey[RESULT.end_velocity, i] = state[1, i]\n"),
     ],
 }
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from dataclasses import replace
 from typing import Any
 
@@ -95,3 +97,9 @@ def test_sweeps_cost_what_the_model_says(name: str) -> None:
     )
     assert abs(expected / seconds - 1.0) < 0.2
     assert abs(cost.of_sweep(grid, motions, transitions) / seconds - 1.0) < 0.2
+
+
+def test_a_sweep_of_single_storeys_loads_no_kernels_of_several() -> None:
+    code = "import sys, fdspec.runs.sweep; print([name for name in sys.modules if 'frame.history' in name])"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"

@@ -20,9 +20,9 @@ from fdspec.kernels.frame.energy import (
     stored_energy,
     viscous_work,
 )
+from fdspec.kernels.frame.finish import fill_storeys, fill_totals
 from fdspec.kernels.frame.groups_of_four import LANES
 from fdspec.kernels.frame.model import (
-    KINETIC_SLIP_FORCE,
     MASSLESS,
     MODEL_ROWS,
     NO_BRACE,
@@ -40,15 +40,13 @@ from fdspec.kernels.frame.model import (
 from fdspec.kernels.frame.output import ENERGY, write_traces
 from fdspec.kernels.frame.peaks import PEAK_ROWS, raise_peaks
 from fdspec.kernels.frame.reset import (
-    RELEASE,
     TALLY_ROWS,
     begin_free,
     begin_slip,
     returns_at_once,
     stay_sprung,
-    travel_so_far,
 )
-from fdspec.kernels.frame.results import COUNTS, END, END_ROWS, NO_TIME, RESULT, TOTAL
+from fdspec.kernels.frame.results import COUNTS, END, END_ROWS, NO_TIME
 from fdspec.kernels.frame.step import change_phases, look_ahead
 from fdspec.kernels.frame.taylor import (
     DISPLACEMENT,
@@ -63,7 +61,6 @@ from fdspec.kernels.frame.taylor import (
     reaction_now,
     relax,
 )
-from fdspec.kernels.friction import friction_work
 from fdspec.kernels.types import (
     ENERGY_NOT_CLOSED,
     ENERGY_TOLERANCE,
@@ -322,17 +319,8 @@ def history(
         if status != OK:
             break
 
-    friction = 0.0
+    friction = fill_storeys(frame, phase, state, tally, by_storey)
     for i in range(size):
-        travel = travel_so_far(phase, state[OFFSET, i], tally, i)
-        work = tally[RELEASE, i]
-        if travel > 0.0:
-            work += friction_work(frame[KINETIC_SLIP_FORCE, i], travel)
-        friction += work
-        by_storey[RESULT.residual_displacement, i] = state[DISPLACEMENT, i]
-        by_storey[RESULT.residual_brace_displacement, i] = state[DISPLACEMENT, i] - state[OFFSET, i]
-        by_storey[RESULT.slip_travel, i] = travel
-        by_storey[RESULT.storey_friction_energy, i] = work
         for k in range(4):
             by_storey[END + k, i] = state[k, i]
         by_storey[END + 4, i] = phase[i]
@@ -351,12 +339,7 @@ def history(
             status = NON_FINITE_STATE
         elif error > ENERGY_TOLERANCE:
             status = ENERGY_NOT_CLOSED
-    totals[TOTAL.transitions] = transitions
-    totals[TOTAL.dissipated_energy] = friction
-    totals[TOTAL.viscous_energy] = viscous
-    totals[TOTAL.input_energy] = work_in
-    totals[TOTAL.energy_error] = error
-    totals[TOTAL.status] = status
+    fill_totals(transitions, friction, viscous, work_in, error, status, totals)
 
 
 @inner

@@ -7,6 +7,7 @@ import math
 from fdspec.compiler.options import inner
 from fdspec.kernels.frame import model as rows
 from fdspec.kernels.frame.energy import stored_energy
+from fdspec.kernels.frame.finish import fill_storeys, fill_totals
 from fdspec.kernels.frame.model import (
     NO_BRACE,
     fastest_rate,
@@ -16,8 +17,8 @@ from fdspec.kernels.frame.model import (
     rate_of,
     set_phase,
 )
-from fdspec.kernels.frame.reset import RELEASE, TALLY_ROWS, begin_slip, travel_so_far
-from fdspec.kernels.frame.taylor import DISPLACEMENT, OFFSET, VELOCITY
+from fdspec.kernels.frame.reset import TALLY_ROWS, begin_slip
+from fdspec.kernels.frame.taylor import DISPLACEMENT, VELOCITY
 from fdspec.kernels.frame_batch.eight import WIDTH
 from fdspec.kernels.frame_batch.layout import (
     COLUMN_DASHPOTS,
@@ -160,20 +161,10 @@ def finish(
 ):
     """Fill a history's results, as `fdspec.kernels.frame.history.integrate` does, from the rows END."""
     take_state(p, END, size, lane, state)
-    friction = 0.0
     for r in range(PEAKS):
         for i in range(size):
             by_storey[r, i] = p[row(PEAK + r, i) + lane]
-    for i in range(size):
-        travel = travel_so_far(phase, state[OFFSET, i], tally, i)
-        work = tally[RELEASE, i]
-        if travel > 0.0:
-            work += frame[rows.KINETIC_SLIP_FORCE, i] * travel
-        friction += work
-        by_storey[6, i] = state[DISPLACEMENT, i]
-        by_storey[7, i] = state[DISPLACEMENT, i] - state[OFFSET, i]
-        by_storey[8, i] = travel
-        by_storey[10, i] = work
+    friction = fill_storeys(frame, phase, state, tally, by_storey)
     work_in = p[INPUT * WIDTH + lane]
     viscous = p[VISCOUS * WIDTH + lane]
     error = 0.0
@@ -187,9 +178,4 @@ def finish(
             status = NON_FINITE_STATE
         elif error > ENERGY_TOLERANCE:
             status = ENERGY_NOT_CLOSED
-    totals[0] = transitions
-    totals[1] = friction
-    totals[2] = viscous
-    totals[3] = work_in
-    totals[4] = error
-    totals[5] = status
+    fill_totals(transitions, friction, viscous, work_in, error, status, totals)
