@@ -119,8 +119,11 @@ def first_roots(p, block, n, lanes, result):
     root = splat(NO_ROOT)
     if crossed != 0:
         left = where_in(cross_2, x_1, where_in(cross_3, x_2, where_in(cross_4, x_3, nothing)))
-        start = where_in(cross_2, v_1, where_in(cross_3, v_2, where_in(cross_4, v_3, v_0)))
-        end = where_in(cross_2, v_2, where_in(cross_3, v_3, where_in(cross_4, v_4, v_1)))
+        # Lanes without a crossing divide by something too.
+        start = where_in(cross_1, v_0, where_in(cross_4, v_3, splat(1.0)))
+        start = where_in(cross_2, v_1, where_in(cross_3, v_2, start))
+        end = where_in(cross_1, v_1, where_in(cross_4, v_4, splat(-1.0)))
+        end = where_in(cross_2, v_2, where_in(cross_3, v_3, end))
         found = locate(p, block, n, crossed, left, left + splat(QUARTER), start, end)
         root = where_in(crossed, found, root)
     store(p, result, root)
@@ -155,8 +158,9 @@ def locate(p, block, n, lanes, a, b, height_a, height_b):
         slope = fma8(x + x, fma8(x, odd_slope, even_slope), odd)
         a = where_above(height, nothing, x, a)
         b = where_above(height, nothing, b, x)
-        step = x - height / slope
-        inside = ~above(a, step) & ~above(step, b) & above(splat(HUGE), abs8(step))
+        steep = above(abs8(slope), nothing)
+        step = x - height / where_in(steep, slope, splat(1.0))
+        inside = steep & ~above(a, step) & ~above(step, b) & above(splat(HUGE), abs8(step))
         step = where_in(inside, step, splat(0.5) * (a + b))
         moved = abs8(step - x)
         moves = above(abs8(height), nothing)
