@@ -19,7 +19,7 @@ def check_cube(cube: str, everything: bool) -> None:
 
     Exit code 1 when something is wrong with it.
     """
-    from fdspec.cli.summary import LISTED
+    from fdspec.cli.outcome import LISTED
     from fdspec.measures.statuses import failed_cells
     from fdspec.store import open as open_cube
     from fdspec.store.check import check

@@ -3,7 +3,7 @@
 import difflib
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from decimal import Decimal
 from functools import partial
@@ -95,13 +95,7 @@ class Study:
             When the file cannot be used; one line of text for each mistake, with field and line number.
         """
         path = Path(path)
-        try:
-            text = path.read_text(encoding="utf-8")
-        except OSError as error:
-            raise StudyError(f"{path}: cannot be read ({error.strerror})") from None
-        except UnicodeDecodeError:
-            raise StudyError(f"{path}: is not a text file in UTF-8") from None
-        return cls.parse(text, name=str(path), folder=path.parent)
+        return cls.parse(text_of(path), name=str(path), folder=path.parent)
 
     @classmethod
     def parse(cls, text: str, *, name: str = "study", folder: Path = Path()) -> "Study":
@@ -114,16 +108,16 @@ class Study:
         try:
             values = dict(_StudyFile.model_validate(table))
         except ValidationError as error:
-            mistakes = [_mistake(detail["loc"], detail["type"], detail["msg"]) for detail in error.errors()]
+            mistakes = [
+                mistake_of(detail["loc"], detail["type"], detail["msg"], _StudyFile.model_fields)
+                for detail in error.errors()
+            ]
         else:
             mistakes = [((key,), f"{key}: {sentence}") for key, sentence in contradictions(values)]
         if mistakes:
             if all(where[0] != "records" for where, _ in mistakes):
-                mistakes += _unknown_records(table.get("records"), folder)
-            lines = key_lines(text)
-            placed = [(line_of(lines, where), sentence) for where, sentence in mistakes]
-            placed.sort(key=lambda one: one[0])
-            raise StudyError("\n".join(f"{name}, line {line}: {sentence}" for line, sentence in placed))
+                mistakes += unknown_records(table.get("records"), folder)
+            raise placed(name, text, mistakes)
         grid = Grid(**{key: values.pop(key) for key in GRID_FIELDS})
         return cls(grid=grid, folder=folder, **values)
 
@@ -135,15 +129,7 @@ class Study:
         RecordError
             When some cannot be used; one line of text for each.
         """
-        found, mistakes = [], []
-        for record in self.records:
-            try:
-                found.append(find_record(record, folder=self.folder, scaled=self.scaled))
-            except RecordError as error:
-                mistakes.append(str(error))
-        if mistakes:
-            raise RecordError("\n".join(mistakes))
-        return tuple(found)
+        return find_records(self.records, folder=self.folder, scaled=self.scaled)
 
     def to_toml(self) -> str:
         """Return the study as the text of a study file, every field named, to be edited."""
@@ -155,17 +141,17 @@ class Study:
 
 # Names of the catalogue (fdspec records list) or record files, relative to this file; what a file does not
 # say of itself goes into a table: {{ path = "a.txt", units = "g", dt = 0.01, channel = "EW", name = "b" }}.
-records = {_records_text(self.records)}
+records = {records_text(self.records)}
 # Scale the stand-ins of the catalogue to the study's peak ground acceleration.
-scaled = {_bool(self.scaled)}
+scaled = {bool_text(self.scaled)}
 
 # Axes: a list, {{ start, stop, step }} or {{ start, stop, num }}, ends included.
 # Brace over frame stiffness.
-stiffness_ratio = {_axis_text(grid.stiffness_ratio)}
+stiffness_ratio = {axis_text(grid.stiffness_ratio)}
 # N, the total normal force on the sliding surface; 0 slides freely, inf never.
-pretension = {_axis_text(grid.pretension)}
+pretension = {axis_text(grid.pretension)}
 # s, of the frame without its brace.
-period = {_axis_text(grid.period)}
+period = {axis_text(grid.period)}
 
 # kg
 floor_mass = {grid.floor_mass!r}
@@ -182,10 +168,27 @@ normal_force_factor = {grid.normal_force_factor!r}
 brace_damping_ratio = {grid.brace_damping_ratio!r}
 
 # Variables of the cube; left out, these. Only on request: {", ".join(ON_REQUEST)}.
-{"# " if self.outputs is None else ""}outputs = {_strings(OUTPUTS if self.outputs is None else self.outputs)}
+{"# " if self.outputs is None else ""}outputs = {strings_text(OUTPUTS if self.outputs is None else self.outputs)}
 # Check the energy balance of every history.
-certify = {_bool(self.certify)}
+certify = {bool_text(self.certify)}
 """
+
+
+def text_of(path: Path) -> str:
+    """Return what a study file says, or raise StudyError."""
+    try:
+        return path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise StudyError(f"{path}: cannot be read ({error.strerror})") from None
+    except UnicodeDecodeError:
+        raise StudyError(f"{path}: is not a text file in UTF-8") from None
+
+
+def placed(name: str, text: str, mistakes: Iterable[tuple[tuple[str | int, ...], str]]) -> StudyError:
+    """Return the error that tells each mistake with its line, in the order of the file."""
+    lines = key_lines(text)
+    told = sorted(((line_of(lines, where), sentence) for where, sentence in mistakes), key=lambda one: one[0])
+    return StudyError("\n".join(f"{name}, line {line}: {sentence}" for line, sentence in told))
 
 
 def is_catalogued(record: str) -> bool:
@@ -207,6 +210,21 @@ def find_record(record: str | RecordFile, *, folder: Path = Path(), scaled: bool
         record = RecordFile(record)
     about = {key: value for key, value in asdict(record).items() if key != "path"}
     return read_record(folder / record.path, **about)
+
+
+def find_records(
+    records: Iterable[str | RecordFile], *, folder: Path = Path(), scaled: bool = True
+) -> tuple[GroundMotion, ...]:
+    """Load records in order; raise RecordError with one line for each that cannot be used."""
+    found, mistakes = [], []
+    for record in records:
+        try:
+            found.append(find_record(record, folder=folder, scaled=scaled))
+        except RecordError as error:
+            mistakes.append(str(error))
+    if mistakes:
+        raise RecordError("\n".join(mistakes))
+    return tuple(found)
 
 
 def even_axis(spec: Mapping[str, Any]) -> FloatArray:
@@ -249,7 +267,7 @@ def _finite(value: object) -> bool:
         return False
 
 
-def _unknown_records(given: object, folder: Path) -> list[tuple[tuple[str | int, ...], str]]:
+def unknown_records(given: object, folder: Path) -> list[tuple[tuple[str | int, ...], str]]:
     """Mistakes of a study's records that can be seen without reading any."""
     found: list[tuple[tuple[str | int, ...], str]] = []
     for index, record in enumerate(given if isinstance(given, list) else []):
@@ -272,12 +290,14 @@ def _is_path(record: str, folder: Path) -> bool:
     return bool(Path(record).suffix) or len(Path(record).parts) > 1 or (folder / record).exists()
 
 
-def _mistake(where: tuple[str | int, ...], kind: str, message: str) -> tuple[tuple[str | int, ...], str]:
-    """Turn one of pydantic's complaints into a sentence that names the field."""
+def mistake_of(
+    where: tuple[str | int, ...], kind: str, message: str, known: Iterable[str]
+) -> tuple[tuple[str | int, ...], str]:
+    """Turn one of pydantic's complaints into a sentence that names the field, one of the known."""
     name = str(where[0])
     if kind == "extra_forbidden":
-        near = difflib.get_close_matches(name, _StudyFile.model_fields, n=1)
-        hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(_StudyFile.model_fields)}"
+        near = difflib.get_close_matches(name, known, n=1)
+        hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(known)}"
         return where, f"{name}: is not a field of a study; {hint}"
     if kind == "value_error":
         return where, f"{name}: {message.removeprefix('Value error, ')}"
@@ -299,7 +319,7 @@ def _field(name: str, value: object) -> object:
     return checked(name, value)
 
 
-def _record(value: object) -> str | RecordFile:
+def record_field(value: object) -> str | RecordFile:
     if isinstance(value, str):
         return value
     if not isinstance(value, dict):
@@ -317,7 +337,7 @@ def _record(value: object) -> str | RecordFile:
     return RecordFile(**value)
 
 
-def _distinct(values: tuple[Any, ...]) -> tuple[Any, ...]:
+def distinct(values: tuple[Any, ...]) -> tuple[Any, ...]:
     if not values:
         raise ValueError("must name at least one, is empty")
     seen = set()
@@ -329,7 +349,11 @@ def _distinct(values: tuple[Any, ...]) -> tuple[Any, ...]:
 
 
 def _output(value: str) -> str:
-    known = (*OUTPUTS, *ON_REQUEST)
+    return known_output(value, (*OUTPUTS, *ON_REQUEST))
+
+
+def known_output(value: str, known: Sequence[str]) -> str:
+    """Return the name of an output; raise ValueError, with what was meant, where it is none of the known."""
     if value not in known:
         near = difflib.get_close_matches(value, known, n=1)
         hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
@@ -344,9 +368,9 @@ def _study_file() -> type[BaseModel]:
         name: (Annotated[Any, PlainValidator(partial(_field, name))], getattr(study, name))
         for name in GRID_FIELDS
     }
-    records = Annotated[tuple[Annotated[Any, PlainValidator(_record)], ...], AfterValidator(_distinct)]
+    records = Annotated[tuple[Annotated[Any, PlainValidator(record_field)], ...], AfterValidator(distinct)]
     output = Annotated[StrictStr, AfterValidator(_output)]
-    outputs = Annotated[tuple[output, ...], AfterValidator(_distinct)]
+    outputs = Annotated[tuple[output, ...], AfterValidator(distinct)]
     return create_model(
         "StudyFile",
         __config__=ConfigDict(extra="forbid"),
@@ -361,7 +385,7 @@ def _study_file() -> type[BaseModel]:
 _StudyFile: Final = _study_file()
 
 
-def _axis_text(axis: FloatArray) -> str:
+def axis_text(axis: FloatArray) -> str:
     """Write an axis as { start, stop, step } where that gives the same floats, else as a list."""
     if axis.size > 3:
         start, second, stop = (Decimal(repr(float(axis[k]))) for k in (0, 1, -1))
@@ -375,28 +399,28 @@ def _axis_text(axis: FloatArray) -> str:
     return "[" + ", ".join(repr(float(value)) for value in axis) + "]"
 
 
-def _records_text(records: tuple[str | RecordFile, ...]) -> str:
+def records_text(records: tuple[str | RecordFile, ...]) -> str:
     return (
-        "[" + ", ".join(_string(one) if isinstance(one, str) else _table_text(one) for one in records) + "]"
+        "[" + ", ".join(string_text(one) if isinstance(one, str) else _table_text(one) for one in records) + "]"
     )
 
 
 def _table_text(record: RecordFile) -> str:
     given = {key: value for key, value in asdict(record).items() if value is not None}
     parts = [
-        f"{key} = {_string(value) if isinstance(value, str) else repr(value)}" for key, value in given.items()
+        f"{key} = {string_text(value) if isinstance(value, str) else repr(value)}" for key, value in given.items()
     ]
     return "{ " + ", ".join(parts) + " }"
 
 
-def _string(value: str) -> str:
+def string_text(value: str) -> str:
     """Write a TOML string: JSON's escapes are TOML's, but for the delete character."""
     return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007F")
 
 
-def _strings(values: tuple[str, ...]) -> str:
+def strings_text(values: tuple[str, ...]) -> str:
     return "[" + ", ".join(map(_string, values)) + "]"
 
 
-def _bool(value: bool) -> str:
+def bool_text(value: bool) -> str:
     return "true" if value else "false"

@@ -24,7 +24,7 @@ from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_o
 from fdspec.runs.cube import assemble, chosen, named
 from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.progress import Shown
-from fdspec.scheduling.threads import Task, cores, fan_out, plan
+from fdspec.scheduling.threads import Task, cores, fan_out, plan, require_per_task
 from fdspec.variables import CUBE, STUDY_DIMS
 
 if TYPE_CHECKING:
@@ -61,6 +61,9 @@ BRACED: Final = {
 
 STRAIN: Final = ("strain_energy_area", "peak_strain_energy")
 """Results of a pass of their own over every history."""
+
+COLUMNS: Final = ("stiffness_ratio", "period")
+"""The dims of a sweep's columns, the second fastest; a column is all pretensions of a pair."""
 
 RESPONSES: Final = tuple(v.name for v in CUBE.values() if v.dims == STUDY_DIMS)
 _KNOWN: Final = (*RESPONSES, *BARE, *BRACED)
@@ -206,6 +209,7 @@ def sweep(
         },
         command="fdspec.sweep",
     )
+    require_per_task(columns_per_task, "columns_per_task")
     if store is not None:
         from fdspec.runs.resumable import sweep_into
 
@@ -215,10 +219,11 @@ def sweep(
             [CUBE[name] for name in wanted],
             partial(_block, grid, run, wanted),
             fan,
+            items=COLUMNS,
             seconds=sum(seconds)
             if columns_per_task
             else sum(_measured(motions, grid, certify, bool(strain), other)),
-            columns_per_task=columns_per_task,
+            items_per_task=columns_per_task,
             restart=restart,
         )
     tasks = plan(n_sr * n_t, seconds, columns_per_task, "columns_per_task")

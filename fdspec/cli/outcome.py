@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import logging
-import math
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fdspec.cli.storey_columns import STOREY_COLUMNS
 from fdspec.cli.table import counted, grouped, seconds, size, table
 from fdspec.measures import best_damper
 from fdspec.units import G
 
 if TYPE_CHECKING:
     import xarray as xr
-
-AXES = ("record", "stiffness_ratio", "pretension", "period")
 
 MANY = 100
 """Records; of more no table is shown."""
@@ -33,13 +31,58 @@ SHORT = 0.6
 
 def summary(cube: xr.Dataset, path: Path, elapsed: float) -> str:
     """Return a table of the records and where the cube is."""
-    axes = " x ".join(counted(cube.sizes[dim], dim.replace("_", " ")) for dim in AXES)
-    histories = counted(math.prod(cube.sizes[dim] for dim in AXES), "history", "histories")
+    dims = [str(dim) for dim in cube["status"].dims]
+    axes = " x ".join(counted(cube.sizes[dim], dim.replace("_", " ")) for dim in dims)
+    histories = counted(cube["status"].size, "history", "histories")
+    storeys = f" of {counted(cube.sizes['storey'], 'storey')}" if "storey" in cube.dims else ""
     written = f"{path} ({size(_bytes(path))})"
-    lines = [f"{written}: {axes} = {histories}, in {seconds(elapsed)}"]
+    lines = [f"{written}: {axes} = {histories}{storeys}, in {seconds(elapsed)}"]
+    if "storey" in cube.dims:
+        return "\n".join([*_profile_table(cube), *lines])
     if "peak_acceleration" in cube and cube.sizes["record"] <= MANY:
         lines = [_records_table(cube), "", *lines]
     return "\n".join(lines)
+
+
+def as_data(cube: xr.Dataset, path: Path, elapsed: float) -> dict[str, object]:
+    """Return the same for programs."""
+    from fdspec.measures.statuses import status_counts
+
+    return {
+        "output": str(path),
+        "bytes": _bytes(path),
+        "dims": {str(dim): cube.sizes[dim] for dim in cube["status"].dims},
+        "histories": cube["status"].size,
+        "statuses": status_counts(cube),
+        "seconds": elapsed,
+        "records": [str(name) for name in cube["record"].values],
+    }
+
+
+def _profile_table(cube: xr.Dataset) -> list[str]:
+    """Table of the storeys of each building with its dampers as they are given, or nearest to that."""
+    from fdspec.measures.summary import nearest_design, summary
+
+    lines: list[str] = []
+    shown = [name for name in STOREY_COLUMNS if name in cube]
+    for name in cube["building"].values:
+        one = nearest_design(cube.sel(building=name))
+        worst = summary(one[[*shown, "status"]].load(), percentiles=()).sel(statistic=["median", "worst"])
+        head = ["storey", *(f"{STOREY_COLUMNS[column].head} {statistic}" for column in shown for statistic in ("median", "worst"))]
+        rows = [
+            [
+                str(int(cube["storey"].values[k])),
+                *(
+                    f"{STOREY_COLUMNS[column].scale * float(worst[column].isel(storey=k).sel(statistic=statistic)):.4g}"
+                    for column in shown
+                    for statistic in ("median", "worst")
+                ),
+            ]
+            for k in reversed(range(cube.sizes["storey"]))
+        ]
+        scales = f"slip scale {one['slip_scale'].item():g}, stiffness scale {one['stiffness_scale'].item():g}"
+        lines += [f"building {name}, {scales}, over the records", table(head, rows), ""]
+    return lines
 
 
 def _records_table(cube: xr.Dataset) -> str:
