@@ -22,7 +22,10 @@ R = TypeVar("R")
 def json_option(command: Callable[P, R]) -> Callable[P, R]:
     """Add the option that gives results as JSON in place of text."""
     return click.option(
-        "--json", "as_json", is_flag=True, help="Results as one JSON object on stdout, SI units, for programs."
+        "--json",
+        "as_json",
+        is_flag=True,
+        help="Results as one JSON object on stdout, SI units, for programs.",
     )(command)
 
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 import click
 
 from fdspec.cli.echo import echo
-from fdspec.cli.table import grouped
+from fdspec.cli.table import BAD, GOOD, grouped, styled
 from fdspec.errors import FdspecError
 
 WORDS = {True: "ok", False: "FAILED", None: "-"}
+
+COLOURS = {True: GOOD, False: BAD, None: None}
 
 
 @click.command("check")
@@ -26,7 +28,8 @@ def check_cube(cube: str, everything: bool) -> None:
 
     failed = []
     for finding in check(cube):
-        echo(f"{WORDS[finding.passed]:6s}  {finding.what:9s}  {finding.told}")
+        word = styled(f"{WORDS[finding.passed]:6s}", COLOURS[finding.passed])
+        echo(f"{word}  {finding.what:9s}  {finding.told}")
         if finding.passed is False:
             failed.append(finding.what)
         if finding.what == "statuses" and not finding.passed:

@@ -88,6 +88,9 @@ PAGES = (".html", ".htm")
 @click.option("--seed", type=int, default=0, show_default=True, metavar="N", help="Of a free distribution.")
 @click.option("--workers", type=int, metavar="N", help="Threads.  [default: one a core]")
 @click.option("--html", metavar="FILE.html", help="Write the report as one page with pictures too.")
+@click.option("--title", default="", metavar="TEXT", help="Title of the page.")
+@click.option("--project", default="", metavar="TEXT", help="Project that the page names.")
+@click.option("--author", default="", metavar="TEXT", help="Author that the page names.")
 @click.option("-o", "--output", metavar="FILE.nc", help="Write every number of it, netCDF.")
 @force_option
 def choose(
@@ -113,6 +116,9 @@ def choose(
     seed: int,
     workers: int | None,
     html: str | None,
+    title: str,
+    project: str,
+    author: str,
     output: str | None,
     force: bool,
 ) -> None:
@@ -127,6 +133,8 @@ def choose(
         fdspec choose --record FSR1 --record mine.AT2 --period 0.8 --html choice.html
     """
     page_path = None if html is None else free(html, force=force, suffixes=PAGES)
+    if html is None and (title or project or author):
+        raise click.UsageError("--title, --project and --author are of the page; give --html.")
     cube_path = None if output is None else free(output, force=force)
     click_context = click.get_current_context()
     if building is not None:
@@ -173,7 +181,9 @@ def choose(
         workers=workers,
         progress=True,
     )
-    echo(text(choice))
+    from fdspec.cli.table import text_width
+
+    echo(text(choice, width=text_width()))
     if cube_path is not None:
         from fdspec.store import save
 
@@ -184,7 +194,8 @@ def choose(
         from fdspec.store.replacing import replacing
 
         with replacing(page_path, suffixes=PAGES) as part:
-            part.write_text(page(choice, chosen, motions), encoding="utf-8")
+            written = page(choice, chosen, motions, title=title, project=project, author=author)
+            part.write_text(written, encoding="utf-8")
         echo(str(page_path))
 
 

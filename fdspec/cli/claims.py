@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
+import json
 import math
-import textwrap
 from typing import TYPE_CHECKING, Final
 
 import click
 
 from fdspec.cli.echo import echo
-from fdspec.cli.table import table
+from fdspec.cli.table import BAD, FAIR, GOOD, filled, table
 
 if TYPE_CHECKING:
     import xarray as xr
 
 MARKS: Final = {"holds": "+", "holds in part": "~", "does not hold": "-", "not tested": " "}
 
+COLOURS: Final = {"holds": GOOD, "holds in part": FAIR, "does not hold": BAD}
+
 BOLT_FACTOR: Final = 2.0
 """Normal force over the force of a bolt: one bolt, two faces."""
-
-WIDTH: Final = 110
 
 
 @click.command()
@@ -33,8 +33,9 @@ WIDTH: Final = 110
     metavar="X",
     help="The cube's pretension over what the study calls so: 2 n_b for the force of one of n_b bolts.",
 )
-@click.option("--markdown", is_flag=True, help="Tables for a Markdown page.")
-def claims(cube: str, factor: float, markdown: bool) -> None:
+@click.option("--markdown", "form", flag_value="markdown", help="Tables for a Markdown page.")
+@click.option("--json", "form", flag_value="json", help="Shares and verdicts as JSON.")
+def claims(cube: str, factor: float, form: str | None) -> None:
     """Put the study's conclusions to a cube: each with the number that decides it, per record.
 
     A claim falls into parts, sentences about cells of the cube. The number is the share of cells, in percent,
@@ -47,10 +48,14 @@ def claims(cube: str, factor: float, markdown: bool) -> None:
     dataset = store.open(cube)
     require_cube(dataset, cube, "the study's claims")
     found = study_claims(dataset, normal_force_factor=factor)
+    if form == "json":
+        echo(_as_json(found))
+        return
     bolt = study_claims(dataset, normal_force_factor=BOLT_FACTOR * factor)
+    markdown = form == "markdown"
     blocks = [_shares(found, markdown=markdown), _sentences(found), _verdicts(found, bolt, markdown=markdown)]
     if comment := dataset.attrs.get("comment"):
-        blocks.append(textwrap.fill(str(comment), WIDTH))
+        blocks.append(filled(str(comment)))
     echo("\n\n".join(blocks))
 
 
@@ -77,7 +82,7 @@ def _cell(share: float, verdict: str) -> str:
 def _sentences(found: xr.Dataset) -> str:
     names, sentences = found["part"].values, found["sentence"].values
     return "\n".join(
-        textwrap.fill(f"{name:3} {sentence}", WIDTH, subsequent_indent="    ")
+        filled(str(sentence), first=f"{name:3} ", rest="    ")
         for name, sentence in zip(names, sentences, strict=True)
     )
 
@@ -100,7 +105,7 @@ def _verdicts(found: xr.Dataset, bolt: xr.Dataset, *, markdown: bool) -> str:
         "Where records differ, the stand-ins may decide; where they agree, that is unlikely. If of one bolt: "
         f"the verdict when the study's pretension is 1/{BOLT_FACTOR:g} of what it is taken for here."
     )
-    return f"{_table(head, rows, left=head, markdown=markdown)}\n\n{textwrap.fill(told, WIDTH)}"
+    return f"{_table(head, rows, left=head, markdown=markdown)}\n\n{filled(told)}"
 
 
 def _records_differ(found: xr.Dataset, letter: str) -> bool:
@@ -112,6 +117,40 @@ def _table(
     head: list[str], rows: list[list[str]], *, left: list[str] | tuple[str, ...], markdown: bool
 ) -> str:
     if not markdown:
-        return table(head, rows, left=tuple(left))
+        return table(head, rows, left=tuple(left), colours=COLOURS)
     rule = [":--" if name in left else "--:" for name in head]
     return "\n".join("| " + " | ".join(row) + " |" for row in [head, rule, *rows])
+
+
+def _as_json(found: xr.Dataset) -> str:
+    from fdspec.measures.claims import CLAIMS, verdict_of_claim
+
+    parts = [
+        {
+            "part": str(part),
+            "claim": str(one["claim"].item()),
+            "sentence": str(one["sentence"].item()),
+            "verdict": str(one["verdict_of_part"].item()),
+            "records": {
+                str(record): {
+                    "share": None if math.isnan(share) else float(share),
+                    "cells": int(cells),
+                    "verdict": str(verdict),
+                }
+                for record, share, cells, verdict in zip(
+                    found["record"].values,
+                    one["share"].values,
+                    one["cells"].values,
+                    one["verdict"].values,
+                    strict=True,
+                )
+            },
+        }
+        for part in found["part"].values
+        for one in [found.sel(part=part)]
+    ]
+    told = [
+        {"claim": letter, "verdict": verdict_of_claim(found, letter), "the study says": said}
+        for letter, said in CLAIMS.items()
+    ]
+    return json.dumps({"claims": told, "parts": parts}, indent=2)

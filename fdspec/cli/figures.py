@@ -23,6 +23,8 @@ SHEET: Final = "contact-sheet"
 
 CAPTIONS: Final = "captions.md"
 
+SHEET_DPI: Final = 200
+
 
 @click.command()
 @click.argument("cube", metavar="CUBE.nc")
@@ -47,6 +49,17 @@ CAPTIONS: Final = "captions.md"
     metavar="STUDY.toml",
     help="The file the cube was made from: figures 8 and 9 find your own records by it.",
 )
+@click.option(
+    "--width",
+    metavar="MM",
+    help="For a journal: this wide, such as 180mm; no title or caption, 600 dpi, letters of 7 points.",
+)
+@click.option(
+    "--panels",
+    type=click.Choice(["maps", "surfaces"]),
+    help="With --width, what to draw of each record.  [default: maps]",
+)
+@click.option("--author", default="", metavar="TEXT", help="Author that the files name.")
 @click.option("--list", "listed", is_flag=True, help="Say which figures this cube gives, and stop.")
 @force_option
 def figures(
@@ -55,32 +68,40 @@ def figures(
     only: str | None,
     kinds: tuple[str, ...],
     study_file: str | None,
+    width: str | None,
+    panels: str | None,
+    author: str,
     listed: bool,
     force: bool,
 ) -> None:
     """Draw the study's figures: 4 and 6 (validation), 8 and 9 (records), 10 to 18 (acceleration).
 
     Each of 10 to 18 shows one record, a panel a stiffness ratio: the surface over pretension and period, and
-    beside it a map. Captions name the records really used. All figures together come with a contact sheet and
-    the captions as captions.md. Prints the name of each picture.
+    beside it a map with the best pretension. Beyond the study, `ensemble` shows all records together, `chart`
+    the response over slip force in units of floor mass and ground peak. Captions name the records really
+    used. All figures together come with a contact sheet and the captions as captions.md. Prints the name of
+    each picture.
     """
     from fdspec import store
-    from fdspec.figures import plot_contact_sheet
+    from fdspec.figures import encode, plot_contact_sheet
     from fdspec.report.study_figures import applied_motions, chosen, study_pictures
     from fdspec.runs.study import Study
     from fdspec.scheduling.progress import progress
     from fdspec.store.suitable import require_cube
 
+    millimetres = _millimetres(width)
+    if panels is not None and width is None:
+        raise click.UsageError("--panels goes with --width.")
     dataset = store.open(cube)
     require_cube(dataset, cube, "the study's figures")
     given = Study.read(study_file).motions() if study_file else ()
     pictures = chosen(study_pictures(dataset, given), _numbers(only))
     if listed:
-        echo("\n".join(f"{picture.number:5} {picture.title}" for picture in pictures))
+        echo("\n".join(f"{picture.number:8} {picture.title}" for picture in pictures))
         return
     folder = made_folder(output)
     kinds = tuple(dict.fromkeys(kinds)) or ("png", "pdf")
-    whole = only is None
+    whole = only is None and width is None
     paths = [[folder / f"{picture.name}.{kind}" for kind in kinds] for picture in pictures]
     sheet = [folder / f"{SHEET}.{kind}" for kind in kinds] if whole else []
     captions = folder / CAPTIONS
@@ -96,23 +117,43 @@ def figures(
     thumbnails = {}
     with progress(len(pictures) + whole, "figures") as done:
         for picture, files in zip(pictures, paths, strict=True):
-            encoded = _encoded(picture.draw(), kinds, thumbnail=whole)
-            thumbnails[_short(picture.number)] = encoded.get("png", b"")
-            _write(encoded, files)
+            figure = (
+                picture.draw() if millimetres is None else picture.draw_print(millimetres, panels or "maps")
+            )
+            _write(_encoded(figure, kinds, author), files)
+            if whole:
+                small = encode(picture.draw_small(), "png", dpi=SHEET_DPI)
+                thumbnails[_short(picture.number)] = small
             done(1)
         if whole:
             title = f"The study's figures from {Path(cube).name}"
-            _write(_encoded(plot_contact_sheet(thumbnails, title=title), kinds), sheet)
+            _write(_encoded(plot_contact_sheet(thumbnails, title=title), kinds, author), sheet)
             captions.write_text(_page(pictures), encoding="utf-8")
             done(1)
     echo("\n".join(str(path) for path in [*(path for files in paths for path in files), *sheet]))
 
 
-def _encoded(figure: Figure, kinds: Sequence[str], *, thumbnail: bool = False) -> dict[str, bytes]:
+def _encoded(figure: Figure, kinds: Sequence[str], author: str) -> dict[str, bytes]:
     from fdspec.figures import encode
 
-    wanted = {*kinds, "png"} if thumbnail else {*kinds}
-    return {kind: encode(figure, kind) for kind in sorted(wanted)}
+    return {kind: encode(figure, kind, author=author) for kind in kinds}
+
+
+def _millimetres(width: str | None) -> float | None:
+    """Take a width such as 180mm, 18cm or 180."""
+    if width is None:
+        return None
+    number, factor = width.strip().lower(), 1.0
+    for unit, per_mm in (("mm", 1.0), ("cm", 10.0), ("in", 25.4)):
+        if number.endswith(unit):
+            number, factor = number.removesuffix(unit), per_mm
+    try:
+        found = float(number) * factor
+    except ValueError:
+        raise InvalidInput(f"--width must be a length, such as 180mm; got {width!r}") from None
+    if not 60.0 <= found <= 400.0:
+        raise InvalidInput(f"--width must be from 60 to 400 mm, got {width!r}")
+    return found
 
 
 def _write(encoded: dict[str, bytes], paths: Sequence[Path]) -> None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fdspec.cli.storey_columns import STOREY_COLUMNS
-from fdspec.cli.table import counted, grouped, seconds, size, table
+from fdspec.cli.table import counted, filled, grouped, seconds, size, table
 from fdspec.measures import best_damper
 from fdspec.units import G
 
@@ -68,7 +68,14 @@ def _profile_table(cube: xr.Dataset) -> list[str]:
     for name in cube["building"].values:
         one = nearest_design(cube.sel(building=name))
         worst = summary(one[[*shown, "status"]].load(), percentiles=()).sel(statistic=["median", "worst"])
-        head = ["storey", *(f"{STOREY_COLUMNS[column].head} {statistic}" for column in shown for statistic in ("median", "worst"))]
+        head = [
+            "storey",
+            *(
+                f"{STOREY_COLUMNS[column].head} {statistic}"
+                for column in shown
+                for statistic in ("median", "worst")
+            ),
+        ]
         rows = [
             [
                 str(int(cube["storey"].values[k])),
@@ -92,12 +99,12 @@ def _records_table(cube: xr.Dataset) -> str:
     rows = [[cells[0] for _, cells in columns] for columns in tables]
     explained = ["min, max: smallest and largest peak absolute acceleration of the floor."]
     if "elastic_acceleration" in cube:
-        explained += [
-            "Best damper for periods in a band: pretension (kN), stiffness ratio (SR), and peak acceleration",
-            "as share of the frame's without brace, averaged over the band; the lowest on the grid.",
-        ]
+        explained.append(
+            "Best damper for periods in a band: pretension (kN), stiffness ratio (SR), and peak acceleration "
+            "as share of the frame's without brace, averaged over the band; the lowest on the grid."
+        )
     head = [name for name, _ in tables[0]]
-    return "\n".join([table(head, rows, left=("record",)), "", *explained])
+    return "\n".join([table(head, rows, left=("record",)), "", *map(filled, explained)])
 
 
 def _columns(cube: xr.Dataset) -> list[tuple[str, list[str]]]:

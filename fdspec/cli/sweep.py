@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from fdspec.cli.echo import echo
 from fdspec.cli.as_json import echo_json, json_option
+from fdspec.cli.echo import echo
 from fdspec.cli.held import holds
 from fdspec.cli.output import force_option, free, is_there
 from fdspec.cli.record_options import file_options, named_records

@@ -1,20 +1,134 @@
-"""Plain tables: columns of text that line up, on a terminal and in a pipe alike."""
+"""Tables and numbers for people: as wide as the terminal, whole in a pipe."""
 
-from collections.abc import Iterable, Sequence
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+import textwrap
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Final
+
+import click
+
+READABLE: Final = 110
+"""Letters in a line of running text, at most: longer ones are hard to follow."""
+
+NARROWEST: Final = 40
+
+GAP: Final = 2
+"""Blanks between two columns."""
+
+FOLDED: Final = 28
+"""Letters that a folded last column gets at least; where there is less room the table is split."""
+
+GOOD, FAIR, BAD = "green", "yellow", "red"
 
 
-def table(head: Sequence[str], rows: Iterable[Sequence[str]], *, left: Sequence[str] = ()) -> str:
-    """Return lines with a head; columns named in `left` are aligned to the left, others to the right."""
+def on_terminal() -> bool:
+    """Say whether a person reads stdout."""
+    return sys.stdout.isatty()
+
+
+def terminal_width() -> int | None:
+    """Return the letters in a line of the terminal; None where stdout is none, and lines stay whole."""
+    return shutil.get_terminal_size().columns if on_terminal() else None
+
+
+def text_width() -> int:
+    """Return the letters in a line of running text: the terminal's, within what reads well."""
+    return max(NARROWEST, min(READABLE, terminal_width() or READABLE))
+
+
+def filled(text: str, *, first: str = "", rest: str = "") -> str:
+    """Return running text in lines that fit; `first` and `rest` begin the lines."""
+    return textwrap.fill(
+        text,
+        text_width(),
+        initial_indent=first,
+        subsequent_indent=rest,
+        break_on_hyphens=False,
+        break_long_words=False,
+    )
+
+
+def table(
+    head: Sequence[str],
+    rows: Iterable[Sequence[str]],
+    *,
+    left: Sequence[str] = (),
+    colours: Mapping[str, str] | None = None,
+) -> str:
+    """Return lines with a head that fit the terminal.
+
+    Columns named in `left` are aligned to the left, others to the right. On a terminal that is too narrow
+    the last column is folded where it is text, or else the columns stand in several blocks, the first
+    repeated in each. `colours` names the colour of cells by their text, on a terminal alone and not where
+    NO_COLOR is set.
+    """
     lines = [list(head), *(list(row) for row in rows)]
-    widths = [max(len(line[column]) for line in lines) for column in range(len(head))]
-    aligned = [
-        "  ".join(
-            cell.ljust(width) if name in left else cell.rjust(width)
-            for name, cell, width in zip(head, line, widths, strict=True)
-        ).rstrip()
+    width = terminal_width()
+    widths = _widths(lines)
+    if width is None or sum(widths) + GAP * (len(widths) - 1) <= width:
+        return "\n".join(_aligned(head, lines, left, colours))
+    room = width - sum(widths[:-1]) - GAP * (len(widths) - 1)
+    if head[-1] in left and room >= FOLDED:
+        return "\n".join(_aligned(head, _folded(lines, room), left, colours))
+    blocks = [
+        "\n".join(
+            _aligned([head[k] for k in block], [[line[k] for k in block] for line in lines], left, colours)
+        )
+        for block in _blocks(widths, width)
+    ]
+    return "\n\n".join(blocks)
+
+
+def _widths(lines: Sequence[Sequence[str]]) -> list[int]:
+    return [max(map(len, column)) for column in zip(*lines, strict=True)]
+
+
+def _blocks(widths: Sequence[int], width: int) -> list[list[int]]:
+    """Return the columns of each block, as even as may be; every block begins with the first column."""
+    across = max(1, (width - widths[0]) // (GAP + max(widths[1:])))
+    others = len(widths) - 1
+    count = -(-others // -(-others // across))
+    return [[0, *range(k, min(k + count, others + 1))] for k in range(1, others + 1, count)]
+
+
+def _folded(lines: Sequence[Sequence[str]], room: int) -> list[list[str]]:
+    folded = []
+    for line in lines:
+        parts = textwrap.wrap(line[-1], room, break_on_hyphens=False) or [""]
+        folded.append([*line[:-1], parts[0]])
+        folded += [[*([""] * (len(line) - 1)), part] for part in parts[1:]]
+    return folded
+
+
+def _aligned(
+    head: Sequence[str],
+    lines: Sequence[Sequence[str]],
+    left: Sequence[str],
+    colours: Mapping[str, str] | None,
+) -> list[str]:
+    widths = _widths(lines)
+
+    def cell(text: str, name: str, width: int) -> str:
+        padded = text.ljust(width) if name in left else text.rjust(width)
+        return styled(padded, (colours or {}).get(text))
+
+    return [
+        (" " * GAP)
+        .join(cell(text, name, width) for name, text, width in zip(head, line, widths, strict=True))
+        .rstrip()
         for line in lines
     ]
-    return "\n".join(aligned)
+
+
+def styled(text: str, colour: str | None) -> str:
+    """Return text in a colour where stdout is a terminal and NO_COLOR (no-color.org) is not set."""
+    if colour is None or os.environ.get("NO_COLOR") or not on_terminal():
+        return text
+    return click.style(text, fg=colour)
 
 
 def grouped(number: float) -> str:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final, Self
 import click
 
 from fdspec.cli.echo import echo, status
-from fdspec.cli.table import counted, seconds, table
+from fdspec.cli.table import BAD, GOOD, counted, seconds, table
 from fdspec.errors import FdspecError
 
 if TYPE_CHECKING:
@@ -46,7 +46,11 @@ def verify(full: bool, only: tuple[str, ...], form: str | None) -> None:
     if form == "json":
         echo(_as_json(rows, elapsed))
     else:
-        echo(_as_markdown(rows) if form == "markdown" else table(HEAD, map(_cells, rows), left=LEFT))
+        echo(
+            _as_markdown(rows)
+            if form == "markdown"
+            else table(HEAD, map(_cells, rows), left=LEFT, colours={"pass": GOOD, "FAIL": BAD})
+        )
         said = f"{len(failed)} failed" if failed else "all passed"
         echo(f"\n{counted(len(rows), 'row')}, {said}, in {seconds(elapsed)}")
     if failed:

@@ -66,6 +66,7 @@ class Content:
             "title": str(cube.attrs.get("title", "")),
             "made": str(cube.attrs.get("history", "")),
             "comment": str(cube.attrs.get("comment", "")),
+            "frame": frame_of(cube),
             "axes": {
                 "stiffness_ratio": cube["stiffness_ratio"].values.tolist(),
                 "pretension": (cube["pretension"].values / 1e3).tolist(),
@@ -119,6 +120,31 @@ class Content:
                 arrays[name] = one[variable].isel(record=0).transpose(*dims).values / G
         # Level 6 takes three times as long for a twentieth less.
         return gzip.compress(pack({"record": self.records[k]}, arrays), compresslevel=1, mtime=0)
+
+
+FRAME: Final = (
+    ("floor_mass", "floor mass", "t", 1e-3),
+    ("brace_mass", "brace mass", "kg", 1.0),
+    ("damping_ratio", "damping ratio", "", 1.0),
+    ("friction_coefficient", "friction coefficient", "", 1.0),
+    ("normal_force_factor", "normal force over pretension", "", 1.0),
+)
+"""What a reader must know of the frame: parameter, words, the page's unit, factor to it."""
+
+
+def frame_of(cube: xr.Dataset) -> list[dict[str, Any]]:
+    """Return name, words, unit and value of the frame's constants, as far as the cube tells them."""
+    try:
+        told = json.loads(str(cube.attrs.get("parameters", "{}")))
+    except json.JSONDecodeError:
+        return []
+    if not isinstance(told, dict):
+        return []
+    return [
+        {"name": name, "title": title, "unit": unit, "value": told[name] * factor}
+        for name, title, unit, factor in FRAME
+        if isinstance(told.get(name), int | float)
+    ]
 
 
 def _best(values: xr.DataArray, index: Index) -> NDArray[np.float64]:

@@ -7,47 +7,18 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-import numpy as np
-from numpy.typing import NDArray
-
 from fdspec.errors import InvalidInput
 from fdspec.explore.motions import Motions
-from fdspec.explore.packing import pack
+from fdspec.explore.traces import LOOP_FINER, packed_history
 from fdspec.model.building import Building
 from fdspec.runs.bounds import refuse_long, seconds_of_history
 from fdspec.runs.simulate import simulate
-from fdspec.units import G
 
 if TYPE_CHECKING:
     import xarray as xr
 
-FloatArray = NDArray[np.float64]
-
-TRACES: Final[Mapping[str, float]] = {
-    "displacement": 1e3,
-    "brace_displacement": 1e3,
-    "friction_force": 1e-3,
-    "acceleration": 1.0 / G,
-    "ground_acceleration": 1.0 / G,
-}
-"""What is drawn of a history, and the factor to the page's mm, kN and g."""
-
 PAGE_HOURS: Final = 1.0 / 60.0
 """h that a history for the page may take."""
-
-LOOP_FINER: Final = 8
-"""Outputs of the hysteresis loop for each sample of the motion: a damper sticks and slips within a sample."""
-
-COMPARED: Final = (
-    ("peak_acceleration", "Peak absolute acceleration", "g", 1.0 / G),
-    ("peak_displacement", "Peak displacement", "mm", 1e3),
-    ("peak_velocity", "Peak velocity", "m/s", 1.0),
-    ("peak_base_shear", "Peak base shear", "kN", 1e-3),
-    ("residual_displacement", "Residual displacement", "mm", 1e3),
-    ("dissipated_energy", "Energy dissipated by friction", "kJ", 1e-3),
-    ("transitions", "Changes of phase", "", 1.0),
-)
-"""What a history and its cell both tell: variable, words, unit, factor to it."""
 
 
 class Rerun:
@@ -121,44 +92,14 @@ class Rerun:
         cell = self.cube.isel(
             record=record, stiffness_ratio=stiffness_ratio, pretension=pretension, period=period
         )
-        one = history.isel(storey=0)
-        about = {
-            "record": str(history["record"].item()),
-            "notice": notice,
-            "slip_force": _finite(one["slip_force"].item() / 1e3),
-            "compared": [
-                {
-                    "title": title,
-                    "unit": unit,
-                    "history": one[name].item() * factor,
-                    "cube": _finite(cell[name].item() * factor) if name in cell else None,
-                }
-                for name, title, unit, factor in COMPARED
-            ],
-        }
-        fine = {name: one[name].values * factor for name, factor in TRACES.items()}
-        slip, force = loop(fine["displacement"] - fine["brace_displacement"], fine["friction_force"])
-        arrays = {name: values[::LOOP_FINER] for name, values in fine.items()}
-        arrays |= {"time": one["time"].values[::LOOP_FINER], "loop_slip": slip, "loop_force": force}
-        return pack(about, arrays)
-
-
-def loop(slip: FloatArray, force: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the corners of a hysteresis loop, without the points that lie straight between two others.
-
-    slip, force: (n,); both constant to a millionth of their largest value count as constant.
-    """
-    still = [
-        np.abs(np.diff(values)) <= 1e-6 * max(float(np.abs(values).max()), 1e-300) for values in (slip, force)
-    ]
-    steps = [
-        np.where(calm, 0.0, np.sign(np.diff(values)))
-        for calm, values in zip(still, (slip, force), strict=True)
-    ]
-    straight = (steps[0] == 0.0) | (steps[1] == 0.0)
-    same = (steps[0][1:] == steps[0][:-1]) & (steps[1][1:] == steps[1][:-1]) & straight[1:] & straight[:-1]
-    kept = np.concatenate(([True], ~same, [True]))
-    return slip[kept], force[kept]
+        bare = Building.single_storey(
+            period=float(cell["period"]),
+            stiffness_ratio=0.0,
+            slip_force=0.0,
+            **{**self.frame, "brace_mass": 0.0, "brace_damping_ratio": 0.0},
+        )
+        found = self.motions.find(str(self.cube["record"].values[record]))
+        return packed_history(history, simulate(bare, found.motion), notice, cell)
 
 
 FRAME: Final = ("floor_mass", "brace_mass", "damping_ratio", "brace_damping_ratio")
@@ -176,7 +117,3 @@ def _parameters(cube: xr.Dataset) -> tuple[dict[str, Any], dict[str, Any]]:
             f"the cube's attribute parameters does not tell {', '.join((*FRAME, *FRICTION))} ({error}); "
             "histories need a cube that fdspec sweep made"
         ) from error
-
-
-def _finite(value: float) -> float | None:
-    return value if np.isfinite(value) else None

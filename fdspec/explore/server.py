@@ -23,6 +23,7 @@ from fdspec.errors import FdspecError, InvalidInput, StoreError
 from fdspec.explore.best import packed_best
 from fdspec.explore.content import Content
 from fdspec.explore.page import plotly_script, served_page
+from fdspec.explore.point import FIELDS, packed_point, point_of
 from fdspec.explore.rerun import Rerun
 
 POLICY: Final = (
@@ -108,6 +109,7 @@ def application(content: Content, rerun: Rerun, host: str) -> Application:
         (r"/record/([0-9]+)", _Record, {"content": content}),
         (r"/history", _History, {"rerun": rerun}),
         (r"/history\.nc", _HistoryFile, {"rerun": rerun}),
+        (r"/point", _Point, {"rerun": rerun}),
         (r"/best", _Best, {"rerun": rerun}),
     ]
     names = LOOPBACK_NAMES if is_loopback(host) else r".*"
@@ -248,6 +250,12 @@ class _Computed(_Answer):
 class _History(_Computed):
     def computed(self) -> bytes:
         return self.rerun.packed(*self.place())
+
+
+class _Point(_Computed):
+    def computed(self) -> bytes:
+        given = {field.name: self.get_query_argument(field.name, "") for field in FIELDS}
+        return packed_point(self.rerun, self.position("record"), point_of(given))
 
 
 class _Best(_Computed):

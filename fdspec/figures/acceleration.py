@@ -24,6 +24,12 @@ COLOURS = "viridis"
 LEVELS = 20
 """Steps of colour, at most."""
 
+NEAR = 0.05
+"""Share above the least acceleration that counts as nearly as good."""
+
+WIDE = 20.0
+"""Largest over smallest pretension from which on their axis is logarithmic."""
+
 
 @dataclass(frozen=True)
 class Acceleration:
@@ -54,12 +60,22 @@ class Acceleration:
     def _all(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         return self.peak, self.free, self.braced
 
+    @property
+    def logarithmic(self) -> bool:
+        """Whether pretension spans so much that a linear axis would hide where the response changes."""
+        low, high = float(self.pretension.min()), float(self.pretension.max())
+        return low > 0.0 and high >= WIDE * low
+
     def best(self, k: int) -> tuple[FloatArray, FloatArray]:
         """Return periods, s, and the pretension of the least acceleration at each, kN, of one panel."""
         peak = self.peak[k]
         known = np.isfinite(peak).any(axis=0)
         rows = np.argmin(np.where(np.isnan(peak), np.inf, peak), axis=0)
         return self.period[known], self.pretension[rows[known]]
+
+    def band(self, k: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return periods, s, and the ends of the stretch about the best that is within 5 % of it, kN."""
+        return band_of(self.period, self.pretension, self.peak[k], NEAR)
 
 
 def of_record(cube: xr.Dataset, record: str) -> Acceleration:
@@ -101,6 +117,41 @@ def of_record(cube: xr.Dataset, record: str) -> Acceleration:
     )
 
 
+def band_of(
+    period: FloatArray, pretension: FloatArray, values: FloatArray, near: float
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return periods (m,) and the ends (m,) of the pretensions about the least that are nearly as good.
+
+    `pretension` (n_f,) ascends, `values` (n_f, n_t) are NaN where unknown; periods at which none is known are
+    left out. Between two pretensions the values are taken as straight.
+    """
+    starts, ends, kept = [], [], []
+    for t in range(period.size):
+        column = values[:, t]
+        if not np.isfinite(column).any():
+            continue
+        best = int(np.nanargmin(column))
+        limit = (1.0 + near) * column[best]
+        inside = column <= limit
+        low = high = best
+        while low > 0 and inside[low - 1]:
+            low -= 1
+        while high < column.size - 1 and inside[high + 1]:
+            high += 1
+        starts.append(_crossing(pretension, column, low, low - 1, limit))
+        ends.append(_crossing(pretension, column, high, high + 1, limit))
+        kept.append(period[t])
+    return np.array(kept), np.array(starts), np.array(ends)
+
+
+def _crossing(x: FloatArray, y: FloatArray, inner: int, outer: int, limit: float) -> float:
+    """Where a straight line from a point within to its neighbour beyond reaches the limit."""
+    if outer < 0 or outer >= x.size or not np.isfinite(y[outer]):
+        return float(x[inner])
+    share = (limit - y[inner]) / (y[outer] - y[inner])
+    return float(x[inner] + share * (x[outer] - x[inner]))
+
+
 def _limit(one: xr.Dataset, name: str, dims: tuple[str, ...]) -> FloatArray:
     if name not in one:
         return np.full([one.sizes[dim] for dim in dims], np.nan)
@@ -120,8 +171,8 @@ def _words(one: xr.Dataset) -> tuple[str, ...]:
 
 
 FRAME = {
-    "floor_mass": "floor {:,.0f} kg",
-    "brace_mass": "brace {:,.0f} kg",
+    "floor_mass": "floor {:,.0f}\u00a0kg",
+    "brace_mass": "brace {:,.0f}\u00a0kg",
     "damping_ratio": "damping ratio {:.3g}",
     "friction_coefficient": "friction coefficient {:.3g}",
     "normal_force_factor": "normal force {:.3g} times the pretension",
@@ -132,7 +183,7 @@ def _frame(cube: xr.Dataset) -> str:
     """Say which frame was swept, as far as the cube tells."""
     told = told_parameters(cube)
     numbers = ((form, told[name]) for name, form in FRAME.items() if isinstance(told.get(name), int | float))
-    return ", ".join(form.format(value).replace(",", " ") for form, value in numbers)
+    return ", ".join(form.format(value).replace(",", "\u00a0") for form, value in numbers)
 
 
 def told_parameters(cube: xr.Dataset) -> dict[str, Any]:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
@@ -17,6 +18,9 @@ if TYPE_CHECKING:
 
 BARE, BRACED, CHOSEN, BAND = "#595959", "#D55E00", "#0072B2", "#009E73"
 """Of Okabe and Ito's palette, which colour-blind eyes can tell apart; markers differ as well."""
+
+WORDS: Final = "#005a94"
+"""The same blue, darker: letters in it reach a contrast of 4.5 on white."""
 
 MARKS: Final = {
     "bare": ("o", BARE, "bare frame"),
@@ -46,19 +50,20 @@ def plot_choice_index(choice: xr.Dataset) -> Figure:
     trial = choice["trial_pretension"].values[:, storey] / 1e3
     best = float(choice["pretension"][storey]) / 1e3
     start, end = choice["band_pretension"].values[:, storey] / 1e3
-    figure = Figure(figsize=(8.0, 4.6), layout="constrained", dpi=130)
+    least = float(choice["index"].sel(case="chosen"))
+    figure = Figure(figsize=(8.0, 4.4), layout="constrained", dpi=150)
     axis = figure.subplots()
     for k, line in enumerate(choice["trial_index_of_record"].values.T):
         axis.plot(trial, line, color="0.75", linewidth=0.8, label="each record" if k == 0 else None)
-    axis.plot(trial, choice["trial_index"].values, color=CHOSEN, linewidth=2.2, label="all records together")
+    together = "all records together" if choice.sizes["record"] > 1 else "the record"
+    axis.plot(trial, choice["trial_index"].values, color=CHOSEN, linewidth=2.2, label=together)
     reach = min(trial[-1], BEYOND * max(best, end if np.isfinite(end) else best)) or trial[-1]
-    axis.axvspan(start, min(end, trial[-1]), color=BAND, alpha=0.2, linewidth=0, label="band")
-    axis.plot(
-        best, float(choice["index"].sel(case="chosen")), "D", color=CHOSEN, zorder=5, label="recommended"
-    )
+    near = f"within {100.0 * _parameters(choice)['band']:.3g} % of the best"
+    axis.axvspan(start, min(end, trial[-1]), color=BAND, alpha=0.2, linewidth=0, label=near)
+    axis.plot(best, least, "D", color=CHOSEN, markersize=8, markeredgecolor="white", zorder=5)
     for case, dash in (("lower", "--"), ("upper", ":")):
         share = float(choice["index"].sel(case=case))
-        at = _bound_of(choice, case) * best
+        at = _parameters(choice)[case] * best
         axis.plot(
             [at, at], [0.0, share], dash, color=BRACED, linewidth=1.4, label=f"{case} bound of friction"
         )
@@ -66,11 +71,35 @@ def plot_choice_index(choice: xr.Dataset) -> Figure:
     axis.set_xlim(0.0, reach)
     shown = choice["trial_index_of_record"].values[trial <= reach]
     axis.set_ylim(0.0, 1.08 * min(max(1.0, float(shown.max())), 2.5))
+    axis.text(0.99 * reach, 1.0, "bare frame", color=BARE, fontsize="small", ha="right", va="bottom")
+    axis.annotate(
+        f"best: {best:.3g} kN, {abs(100.0 * (1.0 - least)):.0f} % {'less' if least <= 1.0 else 'more'}",
+        (best, least),
+        (12, 0.05),
+        textcoords=("offset points", "axes fraction"),
+        color=WORDS,
+        fontweight="bold",
+        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0},
+    )
     which = f" of storey {storey + 1}" if choice.sizes["storey"] > 1 else ""
     axis.set_xlabel(f"pretension{which}, kN")
-    axis.set_ylabel("index (bare frame 1)")
-    figure.legend(*axis.get_legend_handles_labels(), loc="outside right upper", frameon=False)
+    axis.set_ylabel(f"{_response(choice)}, bare frame 1")
+    axis.spines[["top", "right"]].set_visible(False)
+    figure.legend(*axis.get_legend_handles_labels(), loc="outside lower center", frameon=False, ncols=3)
     return figure
+
+
+RESPONSES: Final = {
+    "acceleration": "peak floor acceleration",
+    "displacement": "peak drift",
+    "base_shear": "peak base shear",
+}
+
+
+def _response(choice: xr.Dataset) -> str:
+    """What an index is of, in few words."""
+    weights = _parameters(choice)["index"]
+    return RESPONSES.get(next(iter(weights)), "index") if len(weights) == 1 else "index"
 
 
 def plot_choice_records(choice: xr.Dataset) -> Figure:
@@ -159,7 +188,6 @@ def _displacements(axis: Axes, bare: xr.Dataset, damped: xr.Dataset) -> None:
     axis.set_xlim(0.0, float(bare["time"].values[-1]))
 
 
-def _bound_of(choice: xr.Dataset, case: str) -> float:
-    import json
-
-    return float(json.loads(choice.attrs["parameters"])[case])
+def _parameters(choice: xr.Dataset) -> dict[str, Any]:
+    told: dict[str, Any] = json.loads(choice.attrs["parameters"])
+    return told

@@ -12,9 +12,9 @@ from matplotlib.image import imread
 from fdspec.errors import InvalidInput
 from fdspec.figures.page import Figure
 
-COLUMNS: Final = 4
+COLUMNS: Final = 3
 
-WIDTH, HEIGHT = 2.85, 2.3
+WIDTH, HEIGHT = 4.3, 3.3
 """Of one picture with its name, in."""
 
 
@@ -30,7 +30,7 @@ def plot_contact_sheet(pictures: Mapping[str, bytes], *, title: str = "") -> Fig
     Returns
     -------
     matplotlib.figure.Figure
-        Four a row.
+        Three a row.
 
     Raises
     ------
@@ -49,9 +49,12 @@ def plot_contact_sheet(pictures: Mapping[str, bytes], *, title: str = "") -> Fig
         axis = figure.add_axes(
             (left / width, bottom / tall, (WIDTH - 0.12) / width, (HEIGHT - 0.3) / tall), label=name
         )
-        axis.imshow(_halved(imread(io.BytesIO(png), format="png")), interpolation="hanning")
+        image = imread(io.BytesIO(png), format="png")
+        if image.shape[1] > 2.0 * figure.dpi * WIDTH:
+            image = _halved(image)
+        axis.imshow(image, interpolation="hanning")
         axis.set_axis_off()
-        axis.set_title(name, fontsize=8, pad=2)
+        axis.set_title(name, fontsize=10, pad=3)
     if title:
         figure.suptitle(title, y=1.0 - 0.12 / tall, fontsize=11, va="top")
     return figure

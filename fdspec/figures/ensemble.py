@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -35,7 +35,7 @@ LETTERS_PER_INCH: Final = 13
 def plot_histories(
     motions: Sequence[GroundMotion],
     *,
-    title: str = "Ground acceleration, each over its own time",
+    title: str = "Ground accelerations, all on one scale of time and of acceleration",
     note: str = "",
     caption: str = "",
 ) -> Figure:
@@ -53,8 +53,8 @@ def plot_histories(
     Returns
     -------
     matplotlib.figure.Figure
-        Acceleration in g over time in s, three panels a row, each with a dot at its peak. Times are each
-        motion's own.
+        Acceleration in g over time in s, three panels a row, each with a dot at its peak, all on the
+        time of the longest: where a line ends the motion ends.
 
     Raises
     ------
@@ -68,10 +68,12 @@ def plot_histories(
     width = max(6.5, 4.2 * columns)
     figure = Figure(figsize=(width, 1.4 + 2.0 * rows), layout="constrained", dpi=150)
     axes = figure.subplots(rows, columns, sharey=True, squeeze=False)
+    longest = max(motion.duration for motion in motions)
     for axis in axes.flat[len(motions) :]:
         axis.remove()
     reach = 1.15 * max(motion.pga for motion in motions) / G
     for k, (axis, motion) in enumerate(zip(axes.flat, motions, strict=False)):
+        axis.set_xlim(0.0, longest)
         _history(axis, motion, COLOURS[k // COLUMNS % len(COLOURS)])
         if reach > 0.0:
             axis.set_ylim(-reach, reach)
@@ -91,6 +93,7 @@ def plot_spectra(
     title: str = "",
     note: str = "",
     caption: str = "",
+    labels: Mapping[str, str] | None = None,
 ) -> Figure:
     """Draw elastic acceleration spectra, a line a record, and their mean: the study's Figure 9.
 
@@ -105,6 +108,8 @@ def plot_spectra(
         A line below the title, such as where the motions come from.
     caption : str
         Words below the picture.
+    labels : mapping of str to str, optional
+        What the legend calls a record, such as its name and soil; its name unless given.
 
     Returns
     -------
@@ -128,7 +133,8 @@ def plot_spectra(
     period = spectra["period"].values
     for axis, ratio in zip(axes, ratios, strict=True):
         values = spectra[quantity].sel(damping_ratio=ratio).transpose("record", "period").values / G
-        _ensemble(axis, period, values, [str(name) for name in spectra["record"].values])
+        names = [str(name) for name in spectra["record"].values]
+        _ensemble(axis, period, values, [(labels or {}).get(name, name) for name in names])
         axis.set_xlim(0.0, float(period[-1]))
         axis.set_ylim(bottom=0.0)
         axis.grid(visible=True, color="0.9", linewidth=0.6)
@@ -148,7 +154,6 @@ def _history(axis: Axes, motion: GroundMotion, colour: str) -> None:
     axis.plot(motion.time, samples, color=colour, linewidth=0.5)
     axis.plot(motion.time[peak], samples[peak], "o", color="black", markersize=3, zorder=5)
     axis.axhline(0.0, color="0.6", linewidth=0.4, zorder=1)
-    axis.set_xlim(0.0, motion.duration)
     axis.set_title(motion.name, loc="left", fontsize="medium", fontweight="bold")
     axis.set_title(", ".join(filter(None, (motion.event, motion.station))), loc="right", fontsize="x-small")
     axis.text(0.985, 0.94, f"{motion.pga / G:.3f} g", transform=axis.transAxes, ha="right", va="top")

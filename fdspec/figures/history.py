@@ -14,10 +14,10 @@ from fdspec.figures.storeys import (
     FloatArray,
     draw_limits,
     draw_phases,
-    slip_of,
     storey_of,
     title_of,
 )
+from fdspec.measures import hysteresis
 from fdspec.units import G
 
 if TYPE_CHECKING:
@@ -39,8 +39,8 @@ def plot_history(history: xr.Dataset, storey: int = 1) -> Figure:
     -------
     matplotlib.figure.Figure
         Displacement of floor and brace (mm), friction force (kN) with a dot at each change of phase, phase of
-        the damper and absolute acceleration (g) over time (s); friction force over slip. Lines join outputs:
-        a smaller `dt_out` of the simulation sharpens the corners of the loop.
+        the damper and absolute acceleration (g) over time (s); friction force over slip, with the corners
+        that `fdspec.measures.hysteresis` finds.
 
     Raises
     ------
@@ -65,7 +65,8 @@ def plot_history(history: xr.Dataset, storey: int = 1) -> Figure:
     accelerated.set_xlabel("time, s")
     accelerated.set_xlim(time[0], time[-1])
 
-    loop.plot(slip_of(one), force, color=FLOOR, linewidth=0.8)
+    corners = hysteresis(history, storey)
+    loop.plot(corners["slip"].values * 1e3, corners["force"].values / 1e3, color=FLOOR, linewidth=0.8)
     loop.set_xlabel("slip, floor less brace, mm")
     loop.set_ylabel("friction force, kN")
     words.set_axis_off()

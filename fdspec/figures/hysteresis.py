@@ -6,7 +6,8 @@ import math
 from typing import TYPE_CHECKING, Final
 
 from fdspec.figures.page import Figure
-from fdspec.figures.storeys import FLOOR, draw_limits, slip_of, title_of
+from fdspec.figures.storeys import FLOOR, draw_limits, title_of
+from fdspec.measures import hysteresis
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -37,7 +38,8 @@ def plot_hysteresis(history: xr.Dataset) -> Figure:
         axis.remove()
     for k, (axis, storey) in enumerate(zip(axes.flat, storeys, strict=False)):
         one = history.sel(storey=storey)
-        axis.plot(slip_of(one), one["friction_force"].values / 1e3, color=FLOOR, linewidth=0.7)
+        loop = hysteresis(history, storey)
+        axis.plot(loop["slip"].values * 1e3, loop["force"].values / 1e3, color=FLOOR, linewidth=0.7)
         draw_limits(axis, one)
         burned = float(one["storey_friction_energy"].values[-1]) / 1e3
         axis.set_title(f"storey {storey}: {burned:.3g} kJ", fontsize="medium")

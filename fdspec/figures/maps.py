@@ -21,6 +21,9 @@ LEFT, RIGHT, BOTTOM, STEP, ACROSS = 0.75, 0.75, 0.3, 2.55, 2.65
 MAP, TALL = 2.05, 1.6
 """Width and height of a map, in."""
 
+HATCHED: Final = "#21918c"
+"""Of the middle of the colours."""
+
 LINE: Final = 0.19
 """Height of a title's line, in."""
 
@@ -64,17 +67,22 @@ def plot_acceleration_maps(cube: xr.Dataset, record: str) -> Figure:
         for part in textwrap.wrap(line, int(LETTERS_PER_INCH * width), break_on_hyphens=False)
     ]
     top = 0.2 + LINE * len(title)
-    tall = BOTTOM + rows * STEP + top
+    room = BOTTOM if columns > 2 else BOTTOM + LINE  # for line and hatching in one row, or in two
+    tall = room + rows * STEP + top
     figure = Figure(figsize=(width, tall), dpi=150)
     for k in range(count):
         row, column = divmod(k, columns)
-        bottom = BOTTOM + (rows - 1 - row) * STEP
+        bottom = room + (rows - 1 - row) * STEP
         axis = at(figure, LEFT + column * ACROSS, bottom + 0.5, MAP, TALL)
         draw_map(axis, data, k)
         axis.set_title(f"stiffness ratio {data.stiffness_ratio[k]:g}", fontsize=9, pad=18)
     high = min(rows * STEP - 0.5, 4.5)
-    draw_scale(figure, data, width - RIGHT + 0.05, BOTTOM + 0.5 * (rows * STEP - high), high)
+    draw_scale(figure, data, width - RIGHT + 0.05, room + 0.5 * (rows * STEP - high), high)
     figure.suptitle("\n".join(title), y=1.0 - 0.1 / tall, fontsize=10, va="top")
     handles, labels = figure.axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="lower center", frameon=False, fontsize=9)
+    across = 2 if columns > 2 else 1
+    # White hatching needs a ground to be seen on.
+    legend = figure.legend(handles, labels, loc="lower center", frameon=False, fontsize=9, ncols=across)
+    for patch in legend.get_patches():
+        patch.set_facecolor(HATCHED)
     return figure

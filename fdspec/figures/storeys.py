@@ -31,11 +31,6 @@ def storey_of(history: xr.Dataset, storey: int) -> xr.Dataset:
     return history.sel(storey=storey)
 
 
-def slip_of(one: xr.Dataset) -> FloatArray:
-    """Return the slip of one storey or of all, floor less brace, mm."""
-    return np.asarray(one["displacement"].values - one["brace_displacement"].values) * 1e3
-
-
 def sliding_velocity(one: xr.Dataset) -> FloatArray:
     """Return the sliding velocity of one storey or of all, floor less brace, mm/s."""
     return np.asarray(one["velocity"].values - one["brace_velocity"].values) * 1e3

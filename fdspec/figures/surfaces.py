@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from fdspec.errors import InvalidInput
-from fdspec.figures.acceleration import Acceleration, of_record
+from fdspec.figures.acceleration import Acceleration, FloatArray, of_record
 from fdspec.figures.caption import SIZE, height, wrapped
 from fdspec.figures.page import Figure
-from fdspec.figures.panels import BEST, HEIGHT, SMALL, at, draw_map, draw_scale, draw_surface
+from fdspec.figures.panels import BAND, BEST, HEIGHT, SMALL, at, draw_map, draw_scale, draw_surface
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -43,7 +43,9 @@ def plot_acceleration(
 
     Height and colour mean the same in all panels. Strips below and above each map are the limits, the damper
     that slides without friction (free) and the one that never slips (braced); the line on a map marks the
-    pretension with the smallest acceleration at each period, on the cube's grid.
+    pretension with the smallest acceleration at each period among the cube's, and hatching what is within
+    5 % of it. Where the cube spans much, pretension is drawn on a logarithmic axis, in both: the response
+    changes below a fifth of the study's largest, and a linear axis would leave it no room.
 
     Parameters
     ----------
@@ -69,7 +71,7 @@ def plot_acceleration(
         When the cube does not hold what is to be drawn.
     """
     data = of_record(cube, record)
-    panels = _panels(data, stiffness_ratios)
+    panels = panels_of(data, stiffness_ratios)
     rows = math.ceil(len(panels) / PAIRS)
     across = min(PAIRS, len(panels))
     width = LEFT + across * (SURFACE + BETWEEN + MAP) + (across - 1) * APART + RIGHT
@@ -99,11 +101,13 @@ def plot_acceleration(
     return figure
 
 
-def _panels(data: Acceleration, wanted: Sequence[float] | None) -> list[int]:
-    """Return the indices of the stiffness ratios to draw."""
+def panels_of(
+    data: Acceleration, wanted: Sequence[float] | None, usual: Sequence[float] | FloatArray = STUDY_PANELS
+) -> list[int]:
+    """Return the indices of the stiffness ratios to draw, the usual ones unless some are wanted."""
     ratios = data.stiffness_ratio
     if wanted is None:
-        shown = [k for k, ratio in enumerate(ratios) if np.isclose(ratio, STUDY_PANELS).any()]
+        shown = [k for k, ratio in enumerate(ratios) if np.isclose(ratio, usual).any()]
         return shown or list(range(ratios.size))
     found = [np.flatnonzero(np.isclose(ratios, ratio)) for ratio in wanted]
     for ratio, places in zip(wanted, found, strict=True):
@@ -115,14 +119,19 @@ def _panels(data: Acceleration, wanted: Sequence[float] | None) -> list[int]:
     return [int(places[0]) for places in found]
 
 
-def acceleration_caption(cube: xr.Dataset, record: str) -> str:
-    """Return the words below `plot_acceleration`: what is drawn, with which record, and of which frame."""
+def acceleration_caption(cube: xr.Dataset, record: str, *, pretensions: int | None = None) -> str:
+    """Return the words below `plot_acceleration`: what is drawn, with which record, and of which frame.
+
+    `pretensions` is how many the picture was computed at; the cube's unless given.
+    """
     data = of_record(cube, record)
     frame = f" Frame: {data.frame}." if data.frame else ""
     used = "; ".join(data.words)
+    count = pretensions or data.pretension.size
     return (
         f"Peak absolute acceleration of the floor at different pretension forces, ground motion {record}"
         f"{f' ({used})' if used else ''}.{frame} SR: stiffness of the brace over that of the frame. Left of "
-        f"each pair the surface, right the same as a map; line: {BEST}, on the grid; strips: the damper that "
+        f"each pair the surface, right the same as a map; line: {BEST}, of the {count} "
+        f"computed; hatched: {BAND}; strips: the damper that "
         "slides without friction (free) and the one that never slips (braced)."
     )

@@ -3,19 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
 from fdspec.errors import InvalidInput
 from fdspec.figures.caption import add_caption
 from fdspec.figures.page import Figure
-from fdspec.figures.storeys import BRACE, FLOOR
+from fdspec.figures.storeys import BRACE, FLOOR, FloatArray
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.axes import Axes
 
 BARE = "0.55"
+
+ERRORS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#595959")
+DASHES: Final = ("-", "--", ":")
+"""Of the errors' lines: Okabe and Ito's palette, which colour-blind eyes can tell apart, and dashes."""
+
+MANY: Final = 4
+"""Other methods from which on their names have a place of their own."""
+
+OFF: Final = "how far each is off the exact one, largest so far"
+
+LEAST: Final = 1e-6
+"""Share of the largest displacement below which no error is drawn."""
 
 
 def plot_bare_and_damped(
@@ -96,7 +109,8 @@ def plot_brace_displacements(
     -------
     matplotlib.figure.Figure
         Displacement of the brace relative to the ground in mm over time in s, a panel a method, on the first
-        one's scale; beside each name the largest displacement drawn and the largest difference.
+        one's scale; beside each name the largest displacement drawn and the largest difference. Below them,
+        where there are several, that difference over time on a logarithmic scale, the largest so far.
 
     Raises
     ------
@@ -110,17 +124,20 @@ def plot_brace_displacements(
     end = float(time[-1]) if end is None else end
     exact = measure["brace_displacement"].sel(storey=storey).values * 1e3
     reach = 1.25 * float(np.abs(exact[time <= end]).max(initial=0.0))
-    figure = Figure(figsize=(9.0, max(2.9, 0.9 + 0.92 * len(histories))), layout="constrained", dpi=150)
-    axes = figure.subplots(len(histories), sharex=True, sharey=True, squeeze=False)[:, 0]
-    for axis, (name, history) in zip(axes, histories.items(), strict=True):
+    others = len(histories) - 1
+    heights = [1.0] * len(histories) + ([3.2] if others else [])
+    figure = Figure(figsize=(9.0, max(2.9, 0.9 + 0.86 * sum(heights))), layout="constrained", dpi=150)
+    axes = figure.subplots(len(heights), sharex=True, squeeze=False, height_ratios=heights)[:, 0]
+    for k, (axis, (name, history)) in enumerate(zip(axes, histories.items(), strict=False)):
         at = history["time"].values
         drawn = history["brace_displacement"].sel(storey=storey).values * 1e3
         shown = at <= end
         told = f"{name}: peak {np.abs(drawn[shown]).max():.3g} mm"
         if name != first:
             axis.plot(time, exact, color="0.75", linewidth=1.6)
-            off = np.abs(drawn - np.interp(at, time, exact))[shown].max()
-            told = f"{told}, off by up to {off:.2g} mm"
+            apart = np.abs(drawn - np.interp(at, time, exact))
+            told = f"{told}, off by up to {apart[shown].max():.2g} mm"
+            _error(axes[-1], at, apart, name, k - 1)
         axis.plot(at, drawn, color=FLOOR if name == first else BRACE, linewidth=0.7)
         axis.set_title(told, loc="left", fontsize="small", pad=2)
         if reach > 0.0:
@@ -128,7 +145,24 @@ def plot_brace_displacements(
     figure.supylabel("displacement of the brace, mm", fontsize="medium")
     axes[-1].set_xlabel("time, s")
     axes[-1].set_xlim(0.0, end)
+    if others:
+        axes[-1].set_yscale("log")
+        axes[-1].set_ylim(bottom=LEAST * max(reach, 1e-300))
+        axes[-1].set_ylabel("off by, mm")
+        axes[-1].grid(visible=True, color="0.92", linewidth=0.5)
+        axes[-1].set_title(OFF, loc="left", fontsize="small", pad=2)
+        # Between the methods that solve the same equations and those that do not there is room.
+        place = {"loc": "center", "bbox_to_anchor": (0.63, 0.42)} if others > MANY else {"loc": "best"}
+        axes[-1].legend(ncols=2, frameon=False, fontsize="x-small", **place)
     if title:
         figure.suptitle(title, fontsize="medium")
     add_caption(figure, caption)
     return figure
+
+
+def _error(axis: Axes, time: FloatArray, apart: FloatArray, name: str, k: int) -> None:
+    """Draw the largest difference so far: the difference itself comes back to zero in every swing."""
+    until = np.maximum.accumulate(apart)
+    seen = until > 0.0
+    colour, dash = ERRORS[k % len(ERRORS)], DASHES[k // len(ERRORS) % len(DASHES)]
+    axis.plot(time[seen], until[seen], color=colour, linestyle=dash, linewidth=1.2, label=name)

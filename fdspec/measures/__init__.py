@@ -9,6 +9,7 @@ from fdspec.measures.claims import study_claims
 from fdspec.measures.damper import best_damper
 from fdspec.measures.ensemble import STATISTICS, best_for_all, ensemble
 from fdspec.measures.grid_best import best_on_grid
+from fdspec.measures.hysteresis import hysteresis
 from fdspec.measures.indices import INDICES, index_of, indices, needs_of
 from fdspec.measures.reduction import reduction
 from fdspec.measures.residual import residual
@@ -22,6 +23,7 @@ __all__ = [
     "best_for_all",
     "best_on_grid",
     "ensemble",
+    "hysteresis",
     "index_of",
     "indices",
     "needs_of",

@@ -65,12 +65,14 @@ class Part:
     """One sentence of a claim that cells can decide.
 
     `found` returns 1 where a cell does what `sentence` says, 0 where it does not, NaN where that is unknown;
-    every dim but ``record`` counts cells.
+    every dim but ``record`` counts cells. A sentence about single figures of the study names the records
+    that they show; other records do not count.
     """
 
     name: str
     sentence: str
     found: Callable[[Cells], xr.DataArray]
+    records: tuple[str, ...] = ()
 
     @property
     def claim(self) -> str:
@@ -136,14 +138,31 @@ def _rises_past_optimum(cells: Cells) -> xr.DataArray:
 
 
 def _falls_with_period(cells: Cells) -> xr.DataArray:
-    peak = cells.beyond("period", 0.4).peak
-    _enough(peak, "period")
-    peak = peak.transpose(..., "period")
-    shorter, longer = np.triu_indices(peak.sizes["period"], k=1)
-    before, after = peak.values[..., shorter], peak.values[..., longer]
-    falls = np.where(np.isfinite(before + after), after < before, np.nan)
-    pairs = peak.isel(period=0, drop=True).expand_dims(pair=shorter.size, axis=-1)
-    return pairs.copy(data=falls)
+    return _in_pairs(cells.beyond("period", 0.4).peak, -1.0)
+
+
+def _rises_with_period(cells: Cells) -> xr.DataArray:
+    past = cells.within("period", 0.0, 0.4).within("pretension", 100e3)
+    return _in_pairs(past.peak, 1.0)
+
+
+def _free_falls(cells: Cells) -> xr.DataArray:
+    return _in_pairs(cells.free, -1.0)
+
+
+def _braced_falls(cells: Cells) -> xr.DataArray:
+    return _in_pairs(cells.braced, -1.0)
+
+
+def _in_pairs(values: xr.DataArray, way: float) -> xr.DataArray:
+    """Whether of any two periods the longer has more (way 1) or less (way -1)."""
+    _enough(values, "period")
+    values = values.transpose(..., "period")
+    shorter, longer = np.triu_indices(values.sizes["period"], k=1)
+    before, after = values.values[..., shorter], values.values[..., longer]
+    found = np.where(np.isfinite(before + after), way * after > way * before, np.nan)
+    pairs = values.isel(period=0, drop=True).expand_dims(pair=shorter.size, axis=-1)
+    return pairs.copy(data=found)
 
 
 def _low(cells: Cells) -> Cells:
@@ -166,6 +185,36 @@ def _evenly_reduced(cells: Cells) -> xr.DataArray:
     _enough(stiff.peak, "period")
     reduction = 1.0 - stiff.peak / stiff.free
     return _truth(abs(reduction - reduction.median("period", skipna=True)) <= FELT, reduction)
+
+
+def _untouched(cells: Cells) -> xr.DataArray:
+    softest = cells.at("stiffness_ratio", [0.5])
+    off = abs(softest.peak - softest.free)
+    return _truth(off <= FELT * softest.free, softest.peak, softest.free)
+
+
+def _low_to_half_a_second(cells: Cells) -> xr.DataArray:
+    low = cells.at("stiffness_ratio", [8.0, 10.0]).within("period", 0.0, 0.5).within("pretension", 0.0, 300e3)
+    return _truth(low.peak < low.free, low.peak, low.free)
+
+
+def _low_to_100_kilonewtons(cells: Cells) -> xr.DataArray:
+    low = cells.within("period", 0.0, 0.4).within("pretension", 0.0, 100e3)
+    return _truth(low.peak < low.free, low.peak, low.free)
+
+
+def _climbs_to_one_second(cells: Cells) -> xr.DataArray:
+    return _in_pairs(cells.beyond("stiffness_ratio", 2.0).within("period", 0.4, 1.0).peak, 1.0)
+
+
+def _least_of_stiff_spectrum(cells: Cells) -> xr.DataArray:
+    stiff = cells.at("stiffness_ratio", [8.0, 10.0])
+    spectrum = stiff.peak.max("period", skipna=False)
+    _enough(spectrum, "pretension")
+    band = Cells(spectrum, spectrum, spectrum).within("pretension", 100e3, 300e3).peak
+    _enough(band, "pretension", 1)
+    least, inside = spectrum.min("pretension", skipna=False), band.min("pretension", skipna=False)
+    return _truth(inside <= (1.0 + NEAR) * least, least)
 
 
 def _enough(peak: xr.DataArray, axis: str, least: int = 2) -> None:
@@ -218,6 +267,12 @@ PARTS: Final = (
         _falls_with_period,
     ),
     Part(
+        "d3",
+        "at each stiffness ratio and pretension of 100 kN and more, which is past most optima, of any two "
+        "periods to 0.4 s the longer responds more",
+        _rises_with_period,
+    ),
+    Part(
         "e1",
         "at stiffness ratio 8 and 10, periods to 0.6 s and 100 to 300 kN, the response is below "
         "the free frame's",
@@ -234,5 +289,46 @@ PARTS: Final = (
         "at each stiffness ratio over 4 and pretension of 100 to 250 kN, the reduction against the free "
         "frame is within 0.1 of its median over the periods",
         _evenly_reduced,
+    ),
+    Part("g1", "of any two periods of the free frame the longer responds less", _free_falls),
+    Part(
+        "g2",
+        "at each stiffness ratio, of any two periods of the braced frame the longer responds less",
+        _braced_falls,
+    ),
+    Part(
+        "h1",
+        "Figures 11 and 12: at stiffness ratio 8 and 10, the largest response over all periods is least, "
+        "within 5 %, at a pretension of 100 to 300 kN",
+        _least_of_stiff_spectrum,
+        ("FSR2", "FSR3"),
+    ),
+    Part(
+        "h2",
+        "Figures 13 to 15: at each stiffness ratio over 2 and pretension, of any two periods from 0.4 to 1 s "
+        "the longer responds more",
+        _climbs_to_one_second,
+        ("FMR1", "FMR2", "FMR3"),
+    ),
+    Part(
+        "h3",
+        "Figure 15: at stiffness ratio 8 and 10, periods to 0.5 s and pretensions to 300 kN, the response is "
+        "below the free frame's",
+        _low_to_half_a_second,
+        ("FMR3",),
+    ),
+    Part(
+        "h4",
+        "Figure 16: at stiffness ratio 0.5, each pretension and period, the response is within 10 % of the "
+        "free frame's",
+        _untouched,
+        ("FHR1",),
+    ),
+    Part(
+        "h5",
+        "Figure 18: at each stiffness ratio, periods to 0.4 s and pretensions to 100 kN, the response is "
+        "below the free frame's",
+        _low_to_100_kilonewtons,
+        ("FHR3",),
     ),
 )

@@ -47,8 +47,8 @@ def summary(
     -------
     xarray.Dataset
         The variables with the dim ``statistic`` ("median", "mean", "p16", "p84", "worst") in place of
-        ``record``; ``records``, the number of histories behind each cell; and ``worst_record_NAME`` would be
-        read off the cube with ``idxmax``.  It can be saved, opened and exported as a cube is.
+        ``record``; and ``records``, the number of histories behind each cell.  It can be saved, opened and
+        exported as a cube is.
 
     Raises
     ------
@@ -95,10 +95,8 @@ def summary(
     told.attrs = {name: cube.attrs[name] for name in ABOUT if name in cube.attrs}
     told.attrs["title"] = f"Statistics over {cube.sizes[over]} {over}s: {cube.attrs.get('title', 'a cube')}"
     told.attrs["history"] = f"{cube.attrs.get('history', '')}\nfdspec.summary over {over}".strip()
-    # Not as ``parameters``: these are no sweep's results.
-    for name in ("parameters",):
-        if name in cube.attrs:
-            told.attrs["parameters_of_the_cube"] = cube.attrs[name]
+    if "parameters" in cube.attrs:  # under another name: these are no sweep's results
+        told.attrs["parameters_of_the_cube"] = cube.attrs["parameters"]
     return told
 
 

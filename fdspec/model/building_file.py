@@ -13,6 +13,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationErr
 from fdspec.errors import InvalidInput
 from fdspec.model.building import Building
 from fdspec.model.damping import Damping, DampingMatrix, ModalDamping, RayleighDamping
+from fdspec.model.link import Link
 from fdspec.model.toml_lines import key_lines, line_of, parsed
 
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
@@ -44,6 +45,40 @@ class Mistakes(ValueError):
         super().__init__("; ".join(sentence for _, sentence in self.found))
 
 
+PositiveOrInf = Annotated[float, Field(gt=0.0)]
+LessThanOne = Annotated[float, Field(lt=1.0, allow_inf_nan=False)]
+
+DEVICES = (
+    "storey_height",
+    "yield_shear",
+    "hardening_ratio",
+    "gravity_load",
+    "slot_length",
+    "slot_stiffness",
+    "recentring_stiffness",
+    "collapse_drift",
+)
+
+
+class _Link(BaseModel):
+    """What a table ``[[links]]`` may hold: the parameters of `Link`."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+    upper: int
+    lower: int
+    stiffness: Positive
+    slip_force: Force
+    mass: NotNegative = 0.0
+    kinetic_slip_force: NotNegative | None = None
+    slot_length: PositiveOrInf | None = None
+    slot_stiffness: NotNegative | None = None
+    recentring_stiffness: NotNegative | None = None
+    recentring_preload: NotNegative | None = None
+    friction_stiffness: NotNegative | None = None
+    name: str | None = None
+
+
 class _Rayleigh(BaseModel):
     """Rayleigh damping: one ratio at two periods, s."""
 
@@ -61,7 +96,7 @@ class _File(BaseModel):
 
     floor_mass: Annotated[Storeys, Field(min_length=1)]
     storey_stiffness: Storeys | Matrix | Positive | None = None
-    brace_stiffness: list[NotNegative] | Positive | None = None
+    brace_stiffness: list[NotNegative] | NotNegative | None = None
     bare_period: Positive | None = None
     braced_period: Positive | None = None
     brace_mass: list[NotNegative] | NotNegative = 50.0
@@ -72,6 +107,16 @@ class _File(BaseModel):
     damping_ratio: list[Ratio] | Ratio | None = None
     rayleigh_damping: _Rayleigh | None = None
     damping_matrix: Matrix | None = None
+
+    storey_height: list[Positive] | Positive | None = None
+    yield_shear: list[PositiveOrInf] | PositiveOrInf | None = None
+    hardening_ratio: list[LessThanOne] | LessThanOne = 0.0
+    gravity_load: list[NotNegative] | NotNegative | None = None
+    slot_length: list[PositiveOrInf] | PositiveOrInf | None = None
+    slot_stiffness: list[NotNegative] | NotNegative | None = None
+    recentring_stiffness: list[NotNegative] | NotNegative | None = None
+    collapse_drift: list[PositiveOrInf] | PositiveOrInf | None = None
+    links: list[_Link] = []
 
     @model_validator(mode="after")
     def _told_once(self) -> _File:
@@ -102,7 +147,10 @@ def read_building(path: str | Path, *, design: bool = False) -> Building:
     braces; `brace_mass`, kg, 50 unless given; `brace_damping`, N s/m; `slip_force`, N, a number or one a
     storey, inf never slips; `kinetic_slip_force`, N, or `kinetic_ratio`, kinetic over static friction, 1
     unless given; one of `damping_ratio` in every mode of the bare frame, or one a mode, 0.05 unless given,
-    `rayleigh_damping`, a table of ratio, period_1 and period_2, and `damping_matrix`, N s/m.
+    `rayleigh_damping`, a table of ratio, period_1 and period_2, and `damping_matrix`, N s/m. What `Building`
+    knows of devices goes by the same names (`storey_height`, `yield_shear`, `hardening_ratio`, `gravity_load`,
+    `slot_length`, `slot_stiffness`, `recentring_stiffness`, `collapse_drift`), and each link is a table
+    ``[[links]]`` with the parameters of `Link`.
 
     Parameters
     ----------
@@ -155,7 +203,11 @@ def building_of(table: Mapping[str, Any], *, design: bool = False) -> Building:
         file = _File.model_validate(table)
     except ValidationError as error:
         raise Mistakes(_mistakes(table, error)) from None
-    if design and file.slip_force is None:
+    if (
+        design
+        and file.slip_force is None
+        and np.any(np.asarray(1.0 if file.brace_stiffness is None else file.brace_stiffness) > 0.0)
+    ):
         raise Mistakes([((), "has no slip_force, N, a number or one a storey; 'fdspec choose' finds some")])
     try:
         return _building(file)
@@ -177,6 +229,8 @@ def _building(file: _File) -> Building:
         kinetic = force.copy()
         np.multiply(force, file.kinetic_ratio, out=kinetic, where=np.isfinite(force))
     options: dict[str, Any] = {
+        **{name: getattr(file, name) for name in DEVICES},
+        "links": [Link(**link.model_dump()) for link in file.links],
         "slip_force": force,
         "kinetic_slip_force": kinetic,
         "damping": _damping(file),

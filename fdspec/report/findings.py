@@ -38,8 +38,10 @@ def kilonewtons(forces: Any) -> str:
 
 
 def rounded(value: float) -> str:
-    """Write a number with three digits, and all of those before the point."""
-    return f"{value:.3g}" if abs(value) < 999.5 else f"{value:.0f}"
+    """Write a number with three digits, and all of those before the point, long ones in groups: 12 600."""
+    if abs(value) < 999.5:
+        return f"{value:.3g}"
+    return f"{value:.0f}" if abs(value) < 9999.5 else f"{value:,.0f}".replace(",", " ")
 
 
 def listed(values: Any, write: Callable[[float], str]) -> str:
@@ -92,6 +94,65 @@ def recommendation(choice: xr.Dataset) -> list[tuple[str, str]]:
     ]
 
 
+def plainly(choice: xr.Dataset) -> str:
+    """Say the answer as one would say it to a client."""
+    asked = parameters(choice)
+    index = {case: float(choice["index"].sel(case=case)) for case in CASES}
+    pretension, carried = choice["pretension"].values, choice["brace_force"].values
+    start, end = (choice["band_pretension"].sel(bound=bound).values for bound in ("start", "end"))
+    which = "each friction damper" if pretension.size > 1 else "the friction damper"
+    over = _over(choice)
+    if float(pretension.max()) == 0.0:
+        return (
+            f"Friction does not help here: {over} {_response(choice)} is least when the brace slides freely. "
+            "Leave the dampers out."
+        )
+    return (
+        f"Clamp {which} with a total pretension of {kilonewtons(pretension)} kN{_where(pretension)}, so that "
+        f"it slips at {kilonewtons(choice['slip_force'].values)} kN. {over[0].upper()}{over[1:]} "
+        f"{_response(choice)} is then {_against(index['chosen'], index['bare'])} that of the frame without "
+        f"dampers and {_against(index['chosen'], index['braced'])} that of a frame with braces which cannot "
+        f"slip. Any pretension {_span(start, end)} does nearly as well, within {percent(asked['band'])}. The "
+        f"brace and its joints must carry {kilonewtons(carried)} kN{_where(carried)}."
+    )
+
+
+OVER: Final = {
+    "mean": "on average over",
+    "median": "in the median of",
+    "p84": "at the 84th percentile of",
+    "worst": "in the worst of",
+}
+
+RESPONSE: Final = {
+    "acceleration": "the peak acceleration of the floors",
+    "displacement": "the peak drift",
+    "base_shear": "the peak base shear",
+    "rpi": "the relative performance index of strain energy",
+    "dissipated_energy": "the share of the input energy that friction leaves",
+}
+
+
+def _over(choice: xr.Dataset) -> str:
+    """Over which ground motions an index is told, as the start of a sentence."""
+    records = choice.sizes["record"]
+    if records == 1:
+        return f"under {choice['record'].values[0]}"
+    return f"{OVER[parameters(choice)['statistic']]} the {records} ground motions"
+
+
+def _response(choice: xr.Dataset) -> str:
+    """What an index is of, in words; a weighted one by its weights."""
+    weights = parameters(choice)["index"]
+    name = next(iter(weights)) if len(weights) == 1 else ""
+    return RESPONSE.get(name, f"the index {name_of(weights)}").replace("_", " ")
+
+
+def _span(start: Any, end: Any) -> str:
+    told = _range(start, end)
+    return f"of {told}" if "more" in told or told.startswith("from") else f"from {told}"
+
+
 def _where(forces: Any) -> str:
     if forces.size == 1:
         return ""
@@ -135,8 +196,8 @@ def _worst(choice: xr.Dataset) -> str:
     at = choice.sel(case="chosen", record=worst_record(choice))
     return (
         f"{worst_record(choice)}: index {at['index_of_record'].item():.3g}, acceleration "
-        f"{at['peak_acceleration'].item() / G:.3g} g, drift {at['peak_drift'].item() * 1e3:.3g} mm, "
-        f"base shear {at['peak_base_shear'].item() / 1e3:.3g} kN"
+        f"{at['peak_acceleration'].item() / G:.3g} g, drift {rounded(at['peak_drift'].item() * 1e3)} mm, "
+        f"base shear {rounded(at['peak_base_shear'].item() / 1e3)} kN"
     )
 
 
@@ -179,7 +240,7 @@ def _bounds(choice: xr.Dataset) -> str:
     drift = choice["peak_drift"].max("record") * 1e3
     told = [
         f"friction {asked[case]:.3g} times: index {index[case]:.3g}, acceleration up to "
-        f"{float(peak.sel(case=case)):.3g} g, drift up to {float(drift.sel(case=case)):.3g} mm"
+        f"{float(peak.sel(case=case)):.3g} g, drift up to {rounded(float(drift.sel(case=case)))} mm"
         for case in ("lower", "upper")
     ]
     return "; ".join(told)

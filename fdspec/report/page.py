@@ -9,7 +9,15 @@ from html import escape
 from typing import TYPE_CHECKING, Final
 
 from fdspec.choice.bench import Bench, without_braces
-from fdspec.figures import encode, plot_before_after, plot_choice_index, plot_choice_records, plot_history
+from fdspec.figures import (
+    encode,
+    plot_before_after,
+    plot_choice_index,
+    plot_choice_records,
+    plot_history,
+    plot_sketch,
+    sketch_caption,
+)
 from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
 from fdspec.report.findings import (
@@ -19,10 +27,14 @@ from fdspec.report.findings import (
     kilonewtons,
     parameters,
     percent,
+    plainly,
     recommendation,
+    rounded,
     worst_record,
 )
+from fdspec.report.inputs import MOTION_HEAD, input_rows, motion_rows
 from fdspec.report.rows import record_rows
+from fdspec.report.style import STYLE
 from fdspec.runs.simulate import simulate
 from fdspec.units import G
 
@@ -30,29 +42,23 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
-STYLE: Final = """
-:root { color-scheme: light; }
-body { font: 16px/1.5 system-ui, sans-serif; color: #1a1a1a; background: #fff; margin: 0 auto;
-  max-width: 62rem; padding: 1rem; }
-h1 { font-size: 1.5rem; line-height: 1.25; } h2 { font-size: 1.2rem; margin-top: 2rem; }
-dl { display: grid; grid-template-columns: 10rem 1fr; gap: .35rem 1rem; }
-dt { font-weight: 600; } dd { margin: 0; }
-.answer { font-size: 1.15rem; border-left: .4rem solid #0072b2; padding: .3rem 1rem; background: #f2f7fb; }
-figure { margin: 1rem 0; } img { width: 100%; min-width: 36rem; max-width: 62rem; height: auto; }
-figcaption { color: #444; }
-.wide { overflow-x: auto; } .wide:focus { outline: 3px solid #0072b2; }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
-caption { text-align: left; color: #444; padding-bottom: .4rem; }
-th, td { padding: .2rem .6rem; text-align: right; border-bottom: 1px solid #ddd; white-space: nowrap; }
-th:first-child { text-align: left; }
-footer { margin-top: 2rem; border-top: 1px solid #ccc; color: #444; font-size: .9rem;
-  overflow-wrap: anywhere; }
-@media (max-width: 40rem) { dl { grid-template-columns: 1fr; gap: 0; } dd { margin-bottom: .6rem; } }
-"""
+FINER: Final = 4
+"""Outputs of the detailed history for each sample of its record."""
+
+HEADLINE: Final = ("Pretension", "Gain")
+"""Heads of findings that the answer on top says already."""
 
 
-def page(choice: xr.Dataset, building: Building, motions: GroundMotion | Sequence[GroundMotion]) -> str:
-    """Write the page: recommendation, pictures with their text alternatives, tables, assumptions.
+def page(
+    choice: xr.Dataset,
+    building: Building,
+    motions: GroundMotion | Sequence[GroundMotion],
+    *,
+    title: str = "",
+    project: str = "",
+    author: str = "",
+) -> str:
+    """Write the report: the answer, inputs, pictures with their text alternatives, tables, assumptions.
 
     Parameters
     ----------
@@ -60,29 +66,59 @@ def page(choice: xr.Dataset, building: Building, motions: GroundMotion | Sequenc
         What `fdspec.choose` returned for this building and these motions.
     building : Building
     motions : GroundMotion or sequence of them
+    title : str
+        In place of "Friction dampers: recommended pretension".
+    project, author : str
+        Named below the title and, the project, at the foot of each printed page.
 
     Returns
     -------
     str
-        HTML, pictures and style included.
+        HTML; style and pictures, which are vectors, are in it. Printed it fills A4 pages with numbers.
     """
     given = (motions,) if isinstance(motions, GroundMotion) else tuple(motions)
     chosen = Bench(building, given).with_slip_force(choice["slip_force"].values)
     before = [simulate(without_braces(building), motion) for motion in given]
     after = [simulate(chosen, motion) for motion in given]
     worst = worst_record(choice)
-    history = next(one for one in after if str(one["record"].item()) == worst)
+    motion = next(one for one in given if one.name == worst)
+    history = simulate(chosen, motion, dt_out=motion.dt / FINER)
     many = choice.sizes["storey"] > 1
     index = index_name(choice)
-    title = "Friction dampers: recommended pretension" + ("s" if many else "")
-    told = recommendation(choice)
+    title = title or "Friction dampers: recommended pretension" + ("s" if many else "")
+    told = [(head, sentence) for head, sentence in recommendation(choice) if head not in HEADLINE]
+    top = "top " if many else ""
     parts = [
-        f"<h1>{title}</h1>",
-        f'<p class="answer"><strong>{_words(told[0][1])}</strong><br>{_words(told[2][1])}</p>',
+        f"<header><h1>{escape(title)}</h1>",
+        f"<p>{_byline(choice, project, author)}</p></header>",
+        f'<p class="answer">{_words(plainly(choice))}</p>',
+        "<h2>The structure</h2>",
+        _picture(
+            plot_sketch(building),
+            f"Drawing. {sketch_caption()}",
+            "Frame, brace and friction damper. Left the frame with its symbols, right one damper close up.",
+        ),
+        '<dl class="inputs">',
+        *(
+            f"<div><dt>{escape(name)}</dt><dd>{_words(value)}</dd></div>"
+            for name, value in input_rows(choice)
+        ),
+        "</dl>",
+        *(_distribution(choice) if many else ()),
+        "<h2>The ground motions</h2>",
+        _table(
+            MOTION_HEAD,
+            motion_rows(choice),
+            "PGA and factor as applied: the recorded motion times the factor has this peak.",
+            "Ground motions",
+            words=("event", "station"),
+        ),
+        *(f"<p>{escape(sentence)}</p>" for sentence in _comment(choice)),
+        "<h2>What was found</h2>",
         "<dl>",
         *(f"<dt>{escape(head)}</dt><dd>{_words(sentence)}</dd>" for head, sentence in told),
         "</dl>",
-        "<h2>Index over pretension</h2>",
+        "<h2>Response over pretension</h2>",
         _picture(
             plot_choice_index(choice),
             f"Line chart. {_index_in_words(choice, index)}",
@@ -95,14 +131,20 @@ def page(choice: xr.Dataset, building: Building, motions: GroundMotion | Sequenc
             "braced frame and as recommended. The table below has the numbers.",
             "Bare, with a brace that never slips, and as recommended; bars span the bounds of friction.",
         ),
-        _table(choice),
+        _table(
+            *record_rows(choice),
+            "PGA and peak accelerations in g, drifts in mm. "
+            f"lower, upper: {CASES['lower']}, {CASES['upper']}. Regret: how far the index lies above the "
+            "least that the record has at any pretension.",
+            "Results by record",
+        ),
         "<h2>Histories</h2>",
         _picture(
             plot_before_after(before, after),
-            f"Line charts, one a record: displacement of the {'top ' if many else ''}floor over time. "
+            f"Line charts, one a record: displacement of the {top}floor over time. "
             + "; ".join(_fall(one, other) for one, other in zip(before, after, strict=True))
             + ".",
-            f"Displacement of the {'top ' if many else ''}floor, without and with the damper.",
+            f"Displacement of the {top}floor, without and with the damper.",
         ),
         *(
             _picture(
@@ -115,37 +157,62 @@ def page(choice: xr.Dataset, building: Building, motions: GroundMotion | Sequenc
             )
             for storey in range(1, choice.sizes["storey"] + 1)
         ),
-        *(_distribution(choice) if many else ()),
         "<h2>What this assumes</h2>",
         "<ul>",
-        *(f"<li>{escape(sentence)}</li>" for sentence in assumptions(choice)),
+        *(
+            f"<li>{escape(sentence)}</li>"
+            for sentence in assumptions(choice)
+            if sentence not in _comment(choice)
+        ),
         "</ul>",
-        f"<footer><p>{escape(choice.attrs['history'])}</p>",
-        f"<p>{escape(choice.attrs['references'])}</p>",
+        f"<footer><p>{escape(choice.attrs['history'])}. {escape(choice.attrs['references'])}.</p>",
         "<details><summary>All parameters</summary>",
         f"<p><code>{escape(choice.attrs['parameters'])}</code></p></details></footer>",
     ]
     body = "\n".join(parts)
+    named = f'<meta name="author" content="{escape(author)}">\n' if author else ""
+    foot = _quoted(" - ".join(filter(None, (project, title))))
     return (
         f'<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
-        f'<meta name="viewport" content="width=device-width, initial-scale=1">\n<title>{title}</title>\n'
-        f"<style>{STYLE}</style>\n</head>\n<body>\n<main>\n{body}\n</main>\n</body>\n</html>\n"
+        f'<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        f"{named}<title>{escape(title)}</title>\n<style>{STYLE.replace('@foot@', foot)}</style>\n"
+        f"</head>\n<body>\n<main>\n{body}\n</main>\n</body>\n</html>\n"
     )
 
 
+def _byline(choice: xr.Dataset, project: str, author: str) -> str:
+    """Project, author, date and version, as far as they are known."""
+    made = str(choice.attrs.get("history", ""))[:10]
+    version = choice.attrs.get("fdspec_version", "")
+    told = (project, author, made, f"fdspec {version}" if version else "")
+    return " &middot; ".join(escape(one) for one in told if one)
+
+
+def _quoted(text: str) -> str:
+    """A CSS string, with whatever might end it or its style element written as code points."""
+    return (
+        '"' + "".join(one if one.isalnum() or one in " -,.:" else f"\\{ord(one):06x}" for one in text) + '"'
+    )
+
+
+def _comment(choice: xr.Dataset) -> list[str]:
+    comment = str(choice.attrs.get("comment", ""))
+    return [comment] if comment else []
+
+
 def _words(sentence: str) -> str:
-    """A sentence in which no number is parted from its unit."""
-    escaped = escape(sentence)
-    for unit in ("%", "kN", "mm", "g", "MN/m"):
+    """A sentence in which no number is parted from its unit, or from its own thousands."""
+    escaped = re.sub(r"(?<=\d) (?=\d{3}(?!\d))", "&nbsp;", escape(sentence))
+    for unit in ("%", "kN", "mm", "g", "kg", "t", "s", "MN/m"):
         escaped = re.sub(rf"(?<=\d) (?={re.escape(unit)}(?![\w/]))", "&nbsp;", escaped)
     return escaped
 
 
 def _picture(figure: Figure, alternative: str, caption: str) -> str:
-    data = base64.b64encode(encode(figure, "png")).decode("ascii")
+    data = base64.b64encode(encode(figure, "svg")).decode("ascii")
     return (
         f'<figure><div class="wide" role="region" aria-label="{escape(caption)}" tabindex="0">'
-        f'<img alt="{escape(alternative)}" src="data:image/png;base64,{data}"></div>'
+        f'<img alt="{escape(alternative)}" src="data:image/svg+xml;base64,{data}"></div>'
         f"<figcaption>{escape(caption)}</figcaption></figure>"
     )
 
@@ -163,28 +230,38 @@ def _index_in_words(choice: xr.Dataset, index: str) -> str:
 
 
 def _fall(bare: xr.Dataset, damped: xr.Dataset) -> str:
-    before, after = (float(one["peak_displacement"].values[-1]) * 1e3 for one in (bare, damped))
-    return f"{bare['record'].item()} from {before:.3g} to {after:.3g} mm"
+    before, after = (rounded(float(one["peak_displacement"].values[-1]) * 1e3) for one in (bare, damped))
+    return f"{bare['record'].item()} from {before} to {after} mm"
 
 
-def _table(choice: xr.Dataset) -> str:
-    head, rows = record_rows(choice)
-    cells = "".join(f'<th scope="col">{escape(name)}</th>' for name in head)
-    lines = "\n".join(_row(row) for row in rows)
-    explained = (
-        "PGA and peak accelerations in g, drifts in mm. "
-        f"lower, upper: {CASES['lower']}, {CASES['upper']}. Regret: how far the index lies above the least "
-        "that the record has at any pretension."
+def _table(
+    head: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    caption: str,
+    label: str,
+    words: Sequence[str] = (),
+) -> str:
+    kinds = ["words" if name in words else "" for name in head]
+    cells = "".join(
+        f'<th scope="col"{_class(kind)}>{escape(name)}</th>' for name, kind in zip(head, kinds, strict=True)
     )
+    lines = "\n".join(_row(row, kinds) for row in rows)
     return (
-        '<div class="wide" role="region" aria-label="Results by record" tabindex="0"><table>'
-        f"<caption>{escape(explained)}</caption><thead><tr>{cells}</tr></thead><tbody>\n{lines}\n</tbody></table></div>"
+        f'<div class="wide" role="region" aria-label="{escape(label)}" tabindex="0"><table>'
+        f"<caption>{escape(caption)}</caption><thead><tr>{cells}</tr></thead><tbody>\n{lines}\n"
+        "</tbody></table></div>"
     )
 
 
-def _row(cells: Sequence[str]) -> str:
-    rest = "".join(f"<td>{escape(cell)}</td>" for cell in cells[1:])
+def _row(cells: Sequence[str], kinds: Sequence[str]) -> str:
+    rest = "".join(
+        f"<td{_class(kind)}>{escape(cell)}</td>" for cell, kind in zip(cells[1:], kinds[1:], strict=True)
+    )
     return f'<tr><th scope="row">{escape(cells[0])}</th>{rest}</tr>'
+
+
+def _class(kind: str) -> str:
+    return f' class="{kind}"' if kind else ""
 
 
 def _distribution(choice: xr.Dataset) -> list[str]:
@@ -193,19 +270,15 @@ def _distribution(choice: xr.Dataset) -> list[str]:
     for storey in choice["storey"].values:
         at = choice.sel(storey=storey)
         start, end = at["band_pretension"].values
-        numbers = (
-            kilonewtons(at["slip_force"].item()),
-            kilonewtons(at["pretension"].item()),
-            f"{kilonewtons(start)} to {kilonewtons(end)}",
-            f"{at['brace_stiffness'].item() / 1e6:.3g}",
-            kilonewtons(at["brace_force"].item()),
+        rows.append(
+            [
+                str(storey),
+                kilonewtons(at["slip_force"].item()),
+                kilonewtons(at["pretension"].item()),
+                f"{kilonewtons(start)} to {kilonewtons(end)}",
+                rounded(at["brace_stiffness"].item() / 1e6),
+                kilonewtons(at["brace_force"].item()),
+            ]
         )
-        rows.append(_row([str(storey), *numbers]))
-    return [
-        "<h2>Storey by storey</h2>",
-        '<div class="wide" role="region" aria-label="Results by storey" tabindex="0"><table><thead><tr>',
-        *(f'<th scope="col">{name}</th>' for name in head),
-        "</tr></thead><tbody>",
-        *rows,
-        "</tbody></table></div>",
-    ]
+    told = "Counted from the ground; the band is that of all storeys together."
+    return ["<h2>Storey by storey</h2>", _table(head, rows, told, "Results by storey")]

@@ -10,6 +10,7 @@ import numpy as np
 
 from fdspec.errors import FdspecError, InvalidInput
 from fdspec.model.motion import GroundMotion
+from fdspec.report.finer import OUTPUTS, Finer
 from fdspec.units import G
 
 if TYPE_CHECKING:
@@ -38,6 +39,21 @@ SHOWN: Final = 15.0
 DT_OUT: Final = 2e-3
 """Seconds between the points that it draws."""
 
+PRINTED: Final = 8.4
+"""Points of letters in print; matplotlib's small ones, which these pictures have, are then 7."""
+
+SHEET: Final = 15.0
+"""Points of letters in pictures of 9 in that a contact sheet shows at less than half that."""
+
+SMALL: Final = 88.0
+"""mm; width of a picture that is drawn for the contact sheet."""
+
+SHEET_RATIO: Final = 4.0
+"""Stiffness ratio that the contact sheet shows of a record, or the nearest."""
+
+PRINT_RATIOS: Final = (1.0, 4.0, 8.0)
+"""Stiffness ratios of the ensemble in print."""
+
 SHOWN_FOUR: Final = 25.0
 """Seconds of the second."""
 
@@ -47,7 +63,8 @@ class Picture:
     """One figure of the study.
 
     `number` is the study's, or the record's name where the study has none; `name` begins the file's name;
-    `words` is the caption; `make` draws it under a title, over a caption.
+    `words` is the caption; `make` draws it under a title, over a caption; `printed` draws it for print, at a
+    width in mm, as "maps" or "surfaces"; pictures without it are brought to that width as they are.
     """
 
     number: str
@@ -55,10 +72,35 @@ class Picture:
     title: str
     words: str
     make: Callable[[str, str], Figure]
+    printed: Callable[[float, str], Figure] | None = None
 
     def draw(self) -> Figure:
         """Make the figure, its number and title above, its caption below."""
-        return self.make(self.heading, self.caption)
+        figure = self.make(self.heading, self.caption)
+        figure.set_label(self.heading)
+        return figure
+
+    def draw_print(self, width: float, kind: str = "maps") -> Figure:
+        """Make the figure for a journal: this wide, mm, without title and caption, letters of 7 points."""
+        from fdspec.figures import at_width, lettering
+
+        if self.printed is not None:
+            figure = self.printed(width, kind)
+        else:
+            with lettering(PRINTED):
+                figure = self.make("", "")
+                at_width(figure, width)
+        figure.set_label(self.heading)
+        return figure
+
+    def draw_small(self) -> Figure:
+        """Make the figure for a contact sheet, where many stand on a page."""
+        from fdspec.figures import lettering
+
+        if self.printed is not None:
+            return self.printed(SMALL, "sheet")
+        with lettering(SHEET):
+            return self.make("", "")
 
     @property
     def caption(self) -> str:
@@ -86,16 +128,22 @@ def study_pictures(cube: xr.Dataset, given: Sequence[GroundMotion] = ()) -> list
     -------
     list of Picture
         4 and 6, the validation problems, which need no cube; 8 and 9, of those records of the cube
-        that are found; one a record, 10 to 18 for those of the study. Nothing is drawn before `draw`.
+        that are found; one a record, 10 to 18 for those of the study; the ensemble and the chart, of two
+        records that are found or more. Nothing is drawn or computed before `draw`. Records that are found
+        are drawn on pretensions close together, which are computed for the picture, others on the cube's.
     """
     motions, _ = applied_motions(cube, given)
+    finer = Finer(cube, motions)
     pictures = [_figure_4(), _figure_6()]
     if motions:
         pictures += [_figure_8(motions), _figure_9(cube, motions)]
     names = [str(name) for name in cube["record"].values]
     known = sorted((name for name in names if name in RECORD_FIGURES), key=RECORD_FIGURES.__getitem__)
     others = [name for name in names if name not in RECORD_FIGURES]
-    return _distinct(pictures + [_of_record(cube, name) for name in (*known, *others)])
+    pictures += [_of_record(finer, name) for name in (*known, *others)]
+    if len(motions) > 1 and finer.able and all(name in cube for name in OUTPUTS):
+        pictures += [_ensemble(finer), _chart(finer)]
+    return _distinct(pictures)
 
 
 def applied_motions(
@@ -185,8 +233,8 @@ def _figure_4() -> Picture:
 
     words = (
         "Displacement of the additional frame relative to the ground by every method for friction, each over "
-        "the exact one in grey. Frame 20 000 kg, 0.4 s, damping ratio 0.02; additional frame 27 kg, "
-        "0.0684 s; friction coefficient 0.15, normal force assumed "
+        "the exact one in grey. Frame 20\u00a0000\u00a0kg, 0.4 s, damping ratio 0.02; additional frame "
+        "27\u00a0kg, 0.0684 s; friction coefficient 0.15, normal force assumed "
         f"{_newtons(single_storey_k_braced.NORMAL_FORCE)}. {_excitation(kalamata.stand_in())}"
     )
     title = "displacement of the additional frame of a K-braced frame"
@@ -219,7 +267,7 @@ def _figure_8(motions: Sequence[GroundMotion]) -> Picture:
         return plot_histories(motions, title=title, caption=caption)
 
     words = f"Ground accelerations, a dot at each peak. Records really used: {_used(motions)}"
-    return Picture("8", "figure-08-records", "ground accelerations, each over its own time", words, make)
+    return Picture("8", "figure-08-records", "ground accelerations", words, make)
 
 
 def _figure_9(cube: xr.Dataset, motions: Sequence[GroundMotion]) -> Picture:
@@ -229,12 +277,14 @@ def _figure_9(cube: xr.Dataset, motions: Sequence[GroundMotion]) -> Picture:
 
     def make(title: str, caption: str) -> Figure:
         from fdspec.figures import plot_spectra
+        from fdspec.records import catalogue
         from fdspec.signals.spectra import SHORTEST, elastic_spectra
 
         periods = 0.01 * np.arange(1, round(100.0 * float(cube["period"].values.max())) + 1)
         shortest = SHORTEST * max(motion.dt for motion in motions)
         spectra = elastic_spectra(motions, periods[periods >= shortest], [ratio])
-        return plot_spectra(spectra, title=title, caption=caption)
+        soils = {entry.name: f"{entry.name}, {entry.soil}" for entry in catalogue()}
+        return plot_spectra(spectra, title=title, caption=caption, labels=soils)
 
     words = (
         f"Peak absolute acceleration of elastic oscillators, damping ratio {ratio:g}. Records really used: "
@@ -243,7 +293,7 @@ def _figure_9(cube: xr.Dataset, motions: Sequence[GroundMotion]) -> Picture:
     return Picture("9", "figure-09-spectra", "elastic acceleration spectra", words, make)
 
 
-def _of_record(cube: xr.Dataset, record: str) -> Picture:
+def _of_record(finer: Finer, record: str) -> Picture:
     from fdspec.figures import acceleration_caption
 
     number = RECORD_FIGURES.get(record)
@@ -251,15 +301,66 @@ def _of_record(cube: xr.Dataset, record: str) -> Picture:
     def make(title: str, caption: str) -> Figure:
         from fdspec.figures import plot_acceleration
 
-        return plot_acceleration(cube, record, title=title, caption=caption)
+        return plot_acceleration(finer.of(record), record, title=title, caption=caption)
 
-    words = acceleration_caption(cube, record)
+    def printed(width: float, kind: str) -> Figure:
+        from fdspec.figures import plot_acceleration_print
+
+        ratios = finer.cube["stiffness_ratio"].values
+        shown = [float(ratios[np.abs(ratios - SHEET_RATIO).argmin()])] if kind == "sheet" else None
+        return plot_acceleration_print(
+            finer.of(record),
+            record,
+            width=width,
+            kind="maps" if kind == "sheet" else kind,
+            stiffness_ratios=shown,
+        )
+
+    words = acceleration_caption(finer.cube, record, pretensions=finer.count(record))
     heading = f"absolute acceleration spectra at different pretension forces, {record}"
     safe = "".join(letter if letter.isalnum() or letter in "-_." else "_" for letter in record).strip(".")[
         :LONGEST
     ]
     name = f"record-{safe or '_'}" if number is None else f"figure-{number}-{record}"
-    return Picture(record if number is None else str(number), name, heading, words, make)
+    return Picture(record if number is None else str(number), name, heading, words, make, printed)
+
+
+def _ensemble(finer: Finer) -> Picture:
+    from fdspec.figures import ensemble_caption
+
+    def make(title: str, caption: str) -> Figure:
+        from fdspec.figures import plot_ensemble
+
+        return plot_ensemble(finer.together(), title=title, caption=caption)
+
+    def printed(width: float, _: str) -> Figure:
+        from fdspec.figures import plot_ensemble
+
+        ratios = finer.cube["stiffness_ratio"].values
+        shown = [ratio for ratio in PRINT_RATIOS if np.isclose(ratios, ratio).any()]
+        return plot_ensemble(finer.together(), width=max(width, 120.0), stiffness_ratios=shown or None)
+
+    names = [str(name) for name in finer.motions]
+    words = ensemble_caption(finer.cube.sel(record=names))
+    title = f"{len(names)} records together: reduction of peak acceleration against the bare frame"
+    return Picture("Ensemble", "ensemble", title, words, make, printed)
+
+
+def _chart(finer: Finer) -> Picture:
+    def make(title: str, caption: str) -> Figure:
+        from fdspec.figures import plot_chart
+
+        return plot_chart(finer.for_chart(), title=title, caption=caption)
+
+    words = (
+        "Peak absolute acceleration of the floor over the peak ground acceleration (PGA), median over "
+        f"{', '.join(finer.motions)}, against the slip force F over floor mass times PGA: so divided the "
+        "numbers hold for any floor mass and any loudness. A line a period of the frame without brace, a dot "
+        "at its least; shaded: from the 16th to the 84th percentile of the records at 0.5 s. SR: stiffness "
+        "of the brace over that of the frame."
+    )
+    title = "peak acceleration over slip force, in units of floor mass and ground peak"
+    return Picture("Chart", "chart", title, words, make)
 
 
 def _distinct(pictures: Sequence[Picture]) -> list[Picture]:
@@ -288,10 +389,11 @@ def chosen(pictures: Sequence[Picture], only: Sequence[str]) -> list[Picture]:
         When one is not there.
     """
     numbers = [picture.number for picture in pictures]
+    named = {one.casefold() for one in only}
     for one in only:
-        if one not in numbers:
+        if one.casefold() not in {number.casefold() for number in numbers}:
             raise InvalidInput(f"there is no figure {one!r}; this cube gives {', '.join(numbers)}")
-    return [picture for picture in pictures if picture.number in only] if only else list(pictures)
+    return [one for one in pictures if one.number.casefold() in named] if only else list(pictures)
 
 
 def _excitation(motion: GroundMotion) -> str:

@@ -9,7 +9,15 @@ from pathlib import Path
 from typing import Annotated, Any, Final
 
 import numpy as np
-from pydantic import AfterValidator, BaseModel, ConfigDict, PlainValidator, StrictBool, StrictStr, ValidationError
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    PlainValidator,
+    StrictBool,
+    StrictStr,
+    ValidationError,
+)
 
 from fdspec.errors import InvalidInput, StudyError
 from fdspec.model.building import Building
@@ -37,7 +45,7 @@ from fdspec.runs.study import (
     text_of,
     unknown_records,
 )
-from fdspec.runs.sweep_buildings import OUTPUTS
+from fdspec.runs.sweep_buildings import DEMANDS, OUTPUTS
 
 BUILDINGS: Final = "buildings"
 """The field that makes a study one of buildings."""
@@ -225,7 +233,10 @@ def _named(given: object, mistakes: list[tuple[Where, str]]) -> list[tuple[Where
             mistakes.append((where, f"{BUILDINGS}: {name or where[-1]} must be {wanted}, got {value!r:.60}"))
         elif name in seen:
             mistakes.append(
-                (where, f"{BUILDINGS}: two are called {name!r}; name them in a table, {{ a = {value!r}, ... }}")
+                (
+                    where,
+                    f"{BUILDINGS}: two are called {name!r}; name them in a table, {{ a = {value!r}, ... }}",
+                )
             )
         seen.add(name)
     return [] if mistakes else found
@@ -245,15 +256,17 @@ class _File(BaseModel):
     model_config = ConfigDict(extra="forbid", arbitrary_types_allowed=True)
 
     buildings: Any = None
-    records: Annotated[
-        tuple[Annotated[Any, PlainValidator(record_field)], ...], AfterValidator(distinct)
-    ] = STUDY_RECORDS
+    records: Annotated[tuple[Annotated[Any, PlainValidator(record_field)], ...], AfterValidator(distinct)] = (
+        STUDY_RECORDS
+    )
     scaled: StrictBool = True
     stiffness_scale: Annotated[Any, PlainValidator(partial(_scale, False))] = np.ones(1)
     slip_scale: Annotated[Any, PlainValidator(partial(_scale, True))] = np.ones(1)
     outputs: (
         Annotated[
-            tuple[Annotated[StrictStr, AfterValidator(partial(known_output, known=OUTPUTS))], ...],
+            tuple[
+                Annotated[StrictStr, AfterValidator(partial(known_output, known=(*OUTPUTS, *DEMANDS)))], ...
+            ],
             AfterValidator(distinct),
         ]
         | None

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Final, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from fdspec.errors import DiskError, InvalidInput, StoreError
+from fdspec.errors import DiskError, StoreError
 from fdspec.locks import locked
 from fdspec.model.motion import GroundMotion
 from fdspec.scheduling.threads import Task, cores
@@ -147,7 +147,9 @@ def plan_blocks(
         length = min(LONGEST, max(SHORTEST, seconds / (SHARE * cores())))
         cells = min(LARGEST, total * length / seconds)
     else:
-        cells = items_per_task * math.prod(size for dim, size in sizes.items() if dim not in ("record", *items))
+        cells = items_per_task * math.prod(
+            size for dim, size in sizes.items() if dim not in ("record", *items)
+        )
     return cut(sizes, items, cells, singly=("record",))
 
 

@@ -95,15 +95,15 @@ def _(study: BuildingStudy, motions: Motions, **how: Any) -> xr.Dataset:
 
 @parameters.register
 def _(study: Study) -> dict[str, object]:
-    known = (*of_frames.OUTPUTS, *of_frames.ON_REQUEST)
-    wanted = chosen(of_frames.OUTPUTS if study.outputs is None else study.outputs, known, study.certify)
-    given = {name: getattr(study.grid, name) for name in study.grid.__dataclass_fields__}
-    return {**given, "certify": study.certify, "outputs": list(wanted)}
+    usual = of_frames.usual_outputs(study.grid)
+    outputs = usual if study.outputs is None else study.outputs
+    wanted = chosen(outputs, (*usual, *of_frames.ON_REQUEST), study.certify)
+    return {**study.grid.parameters, "certify": study.certify, "outputs": list(wanted)}
 
 
 @parameters.register
 def _(study: BuildingStudy) -> dict[str, object]:
-    wanted = chosen(study.outputs, of_buildings.OUTPUTS, study.certify)
+    wanted = chosen(study.outputs, of_buildings.known_outputs(study.grid), study.certify)
     return of_buildings.parameters_of(study.grid, wanted, study.certify)
 
 
@@ -132,7 +132,7 @@ def _(study: Study, motions: Motions) -> Planned:
     n_sr, n_f, n_t = study.grid.shape
     cost = cost_of(study.grid, motions, study.certify)
     samples = sum(motion.n for motion in motions)
-    sizes = of_frames.bytes_of(motions, study.grid, study.outputs or of_frames.OUTPUTS)
+    sizes = of_frames.bytes_of(motions, study.grid, study.outputs or of_frames.usual_outputs(study.grid))
     return Planned(
         (("stiffness ratios", n_sr), ("pretensions", n_f), ("periods", n_t)),
         len(motions) * study.grid.size,
@@ -145,7 +145,9 @@ def _(study: Study, motions: Motions) -> Planned:
 @planned.register
 def _(study: BuildingStudy, motions: Motions) -> Planned:
     n_b, n_k, n_s = study.grid.shape
-    sizes = of_buildings.bytes_of(motions, study.grid, study.outputs or of_buildings.OUTPUTS)
+    sizes = of_buildings.bytes_of(
+        motions, study.grid, study.outputs or of_buildings.known_outputs(study.grid)
+    )
     return Planned(
         (
             ("buildings", n_b),
@@ -163,9 +165,13 @@ def _(study: BuildingStudy, motions: Motions) -> Planned:
 @refuse_endless.register
 def _(study: Study, motions: Motions, store: str | os.PathLike[str] | None) -> None:
     rough = rough_seconds(study, motions)
-    of_frames.refuse_endless(motions, study.grid, study.outputs or of_frames.OUTPUTS, rough, store)
+    of_frames.refuse_endless(
+        motions, study.grid, study.outputs or of_frames.usual_outputs(study.grid), rough, store
+    )
 
 
 @refuse_endless.register
 def _(study: BuildingStudy, motions: Motions, store: str | os.PathLike[str] | None) -> None:
-    of_buildings.refuse_endless(motions, study.grid, study.outputs or of_buildings.OUTPUTS, store)
+    of_buildings.refuse_endless(
+        motions, study.grid, study.outputs or of_buildings.known_outputs(study.grid), store
+    )

@@ -27,14 +27,17 @@ from fdspec.model.grid import GRID_FIELDS, FloatArray, Grid, checked, contradict
 from fdspec.model.motion import GroundMotion
 from fdspec.model.toml_lines import key_lines, line_of, parsed
 from fdspec.records import catalogue, load_record, read_record
-from fdspec.variables import CUBE
+from fdspec.variables import CUBE, demand_variables
 
 AXES: Final = ("stiffness_ratio", "pretension", "period")
 
 STUDY_RECORDS: Final = ("FSR1", "FSR2", "FSR3", "FMR1", "FMR2", "FMR3", "FHR1", "FHR2", "FHR3")
 
 _OUTPUTS: Final = tuple(v for v in CUBE.values() if v.dims[:1] == ("record",) and len(v.dims) > 1)
-OUTPUTS: Final = tuple(v.name for v in _OUTPUTS if not v.on_request)
+DEMANDS: Final = tuple(v.name for v in demand_variables(()))
+"""What it computes of frames with columns that yield, gravity, slots or re-centring springs alone."""
+
+OUTPUTS: Final = tuple(v.name for v in _OUTPUTS if not v.on_request and v.name not in DEMANDS)
 """What a study computes unless it names its outputs: what depends on more than the record."""
 
 ON_REQUEST: Final = tuple(v.name for v in _OUTPUTS if v.on_request)
@@ -167,6 +170,8 @@ normal_force_factor = {grid.normal_force_factor!r}
 # Of the brace on its own.
 brace_damping_ratio = {grid.brace_damping_ratio!r}
 
+# Devices of all frames alike; left out, there are none. m, N, N/m.
+{_device_lines(grid)}
 # Variables of the cube; left out, these. Only on request: {", ".join(ON_REQUEST)}.
 {"# " if self.outputs is None else ""}outputs = {strings_text(OUTPUTS if self.outputs is None else self.outputs)}
 # Check the energy balance of every history.
@@ -320,6 +325,7 @@ def _field(name: str, value: object) -> object:
 
 
 def record_field(value: object) -> str | RecordFile:
+    """Return what a study file tells of a record; raise ValueError for what it cannot be."""
     if isinstance(value, str):
         return value
     if not isinstance(value, dict):
@@ -338,6 +344,7 @@ def record_field(value: object) -> str | RecordFile:
 
 
 def distinct(values: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return the values; raise ValueError where there are none, or one comes twice."""
     if not values:
         raise ValueError("must name at least one, is empty")
     seen = set()
@@ -349,7 +356,7 @@ def distinct(values: tuple[Any, ...]) -> tuple[Any, ...]:
 
 
 def _output(value: str) -> str:
-    return known_output(value, (*OUTPUTS, *ON_REQUEST))
+    return known_output(value, (*OUTPUTS, *DEMANDS, *ON_REQUEST))
 
 
 def known_output(value: str, known: Sequence[str]) -> str:
@@ -385,6 +392,25 @@ def _study_file() -> type[BaseModel]:
 _StudyFile: Final = _study_file()
 
 
+_DEVICE_EXAMPLES: Final = {
+    "storey_height": 3.0,
+    "yield_shear": 100e3,
+    "hardening_ratio": 0.02,
+    "gravity_load": 200e3,
+    "slot_length": 0.03,
+    "slot_stiffness": 50e6,
+    "recentring_stiffness": 1e6,
+}
+
+
+def _device_lines(grid: Grid) -> str:
+    given = grid.devices
+    return "".join(
+        f"{name} = {given[name]!r}\n" if name in given else f"# {name} = {example!r}\n"
+        for name, example in _DEVICE_EXAMPLES.items()
+    )
+
+
 def axis_text(axis: FloatArray) -> str:
     """Write an axis as { start, stop, step } where that gives the same floats, else as a list."""
     if axis.size > 3:
@@ -400,15 +426,19 @@ def axis_text(axis: FloatArray) -> str:
 
 
 def records_text(records: tuple[str | RecordFile, ...]) -> str:
+    """Write a TOML list of records."""
     return (
-        "[" + ", ".join(string_text(one) if isinstance(one, str) else _table_text(one) for one in records) + "]"
+        "["
+        + ", ".join(string_text(one) if isinstance(one, str) else _table_text(one) for one in records)
+        + "]"
     )
 
 
 def _table_text(record: RecordFile) -> str:
     given = {key: value for key, value in asdict(record).items() if value is not None}
     parts = [
-        f"{key} = {string_text(value) if isinstance(value, str) else repr(value)}" for key, value in given.items()
+        f"{key} = {string_text(value) if isinstance(value, str) else repr(value)}"
+        for key, value in given.items()
     ]
     return "{ " + ", ".join(parts) + " }"
 
@@ -419,8 +449,10 @@ def string_text(value: str) -> str:
 
 
 def strings_text(values: tuple[str, ...]) -> str:
-    return "[" + ", ".join(map(_string, values)) + "]"
+    """Write a TOML list of strings."""
+    return "[" + ", ".join(map(string_text, values)) + "]"
 
 
 def bool_text(value: bool) -> str:
+    """Write a TOML boolean."""
     return "true" if value else "false"

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from fdspec.errors import InvalidInput
 from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.methods.batch import integrate_by_method
+from fdspec.model.building import Building, ModalDamping
 from fdspec.model.grid import Grid
 from fdspec.model.motion import GroundMotion
 from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_sweep
@@ -25,7 +26,7 @@ from fdspec.runs.cube import assemble, chosen, named
 from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.threads import Task, cores, fan_out, plan, require_per_task
-from fdspec.variables import CUBE, STUDY_DIMS
+from fdspec.variables import CUBE, STUDY_DIMS, demand_variables
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -65,7 +66,10 @@ STRAIN: Final = ("strain_energy_area", "peak_strain_energy")
 COLUMNS: Final = ("stiffness_ratio", "period")
 """The dims of a sweep's columns, the second fastest; a column is all pretensions of a pair."""
 
-RESPONSES: Final = tuple(v.name for v in CUBE.values() if v.dims == STUDY_DIMS)
+DEMANDS: Final = tuple(v.name for v in demand_variables(()))
+"""Outputs of frames with devices alone."""
+
+RESPONSES: Final = tuple(v.name for v in CUBE.values() if v.dims == STUDY_DIMS and v.name not in DEMANDS)
 _KNOWN: Final = (*RESPONSES, *BARE, *BRACED)
 OUTPUTS: Final = tuple(name for name in _KNOWN if not CUBE[name].on_request)
 ON_REQUEST: Final = tuple(name for name in _KNOWN if CUBE[name].on_request)
@@ -86,6 +90,13 @@ def sweep(
     kinetic_friction_coefficient: float | None = None,
     normal_force_factor: float = 1.0,
     brace_damping_ratio: float = 0.0,
+    storey_height: float | None = None,
+    yield_shear: float | None = None,
+    hardening_ratio: float = 0.0,
+    gravity_load: float | None = None,
+    slot_length: float | None = None,
+    slot_stiffness: float | None = None,
+    recentring_stiffness: float | None = None,
     outputs: Iterable[str] | None = None,
     certify: bool = True,
     workers: int | None = None,
@@ -116,6 +127,12 @@ def sweep(
         Of the frame without its brace, and of the brace on its own.
     friction_coefficient, kinetic_friction_coefficient, normal_force_factor : float
         Slip force = friction_coefficient * normal_force_factor * pretension.
+    storey_height, yield_shear, hardening_ratio, gravity_load, slot_length, slot_stiffness,
+    recentring_stiffness : float, optional
+        Devices of all frames alike, as for `fdspec.Building`: columns that yield, gravity, slots, re-centring
+        springs.  With them each history is integrated by itself, a thousand times slower, the cube has the
+        demands of `fdspec.variables.demand_variables` too, and a history may end with the status
+        ``collapsed``.  The limits that ride along stay those of the elastic frame.
     outputs : iterable of str, optional
         Variables of the cube; unless given, all but those of `ON_REQUEST`.
     certify : bool
@@ -166,13 +183,24 @@ def sweep(
         kinetic_friction_coefficient=kinetic_friction_coefficient,
         normal_force_factor=normal_force_factor,
         brace_damping_ratio=brace_damping_ratio,
+        storey_height=storey_height,
+        yield_shear=yield_shear,
+        hardening_ratio=hardening_ratio,
+        gravity_load=gravity_load,
+        slot_length=slot_length,
+        slot_stiffness=slot_stiffness,
+        recentring_stiffness=recentring_stiffness,
     )
     motions = named(motions)
-    wanted = chosen(OUTPUTS if outputs is None else outputs, (*OUTPUTS, *ON_REQUEST), certify)
+    usual = usual_outputs(grid)
+    wanted = chosen(usual if outputs is None else outputs, (*usual, *ON_REQUEST), certify)
     strain = [name for name in wanted if BARE.get(name, name) in STRAIN]
     other = chosen_method(method)
     if strain and other is not None:
         raise InvalidInput(f"outputs {', '.join(strain)} need method 'exact', got {other.name!r}")
+    if grid.devices and (strain or other is not None):
+        what = f"method {other.name!r}" if other is not None else f"outputs {', '.join(strain)}"
+        raise InvalidInput(f"{what}: not for frames with {', '.join(grid.devices)}")
     n_sr, n_f, n_t = grid.shape
     seconds = seconds_of_sweep(grid, motions, certify)
     refuse_endless(motions, grid, wanted, sum(seconds), store)
@@ -188,7 +216,6 @@ def sweep(
         client=client,
         progress=progress,
     )
-    parameters = {name: getattr(grid, name) for name in grid.__dataclass_fields__}
     cube_of = partial(
         assemble,
         axes={
@@ -202,7 +229,7 @@ def sweep(
         motions=motions,
         title="Peak response of single-storey frames with friction dampers",
         parameters={
-            **parameters,
+            **grid.parameters,
             **({} if other is None else other.parameters),
             "certify": certify,
             "outputs": list(wanted),
@@ -310,6 +337,18 @@ def timed(grid: Grid, motion: GroundMotion, certify: bool = True) -> tuple[float
     return time.thread_time() - started, int(results[:, :, RESULTS.index("transitions")].sum())
 
 
+def usual_outputs(grid: Grid) -> tuple[str, ...]:
+    """Return what a sweep computes unless it is told otherwise."""
+    return (*OUTPUTS, *_demands(grid))
+
+
+def _demands(grid: Grid) -> tuple[str, ...]:
+    """Return what only a cube of frames with devices has."""
+    if not grid.devices:
+        return ()
+    return tuple(name for name in DEMANDS if name != "peak_drift_ratio" or grid.storey_height is not None)
+
+
 def _warm() -> None:
     import fdspec.engines.batch  # noqa: F401
 
@@ -344,9 +383,11 @@ def _run_columns(
     from fdspec.engines.batch import integrate_columns
 
     frames = _frames(grid, columns)
-    exact = slice(None) if other is None else slice(0)
+    exact = slice(None) if other is None and not grid.devices else slice(0)
     slip_force, kinetic = grid.slip_force, grid.kinetic_slip_force
     braced, results = integrate_columns(frames, slip_force[exact], kinetic[exact], motion, certify=certify)
+    if grid.devices:
+        results = _run_devices(grid, frames, motion)
     if other is not None:
         results = integrate_by_method(other, frames, slip_force, kinetic, motion)
     bare = frames[columns < grid.period.size].copy()  # the first stiffness ratio's pairs stand for all
@@ -360,6 +401,30 @@ def _run_columns(
         results = np.concatenate([results, added], axis=-1)
         free = np.concatenate([free, strain_of_columns(bare, *never, motion)[:, 0]], axis=-1)
     return results, braced, free
+
+
+def _run_devices(grid: Grid, frames: FloatArray, motion: GroundMotion) -> FloatArray:
+    """Integrate frames (m, 6) with devices, all pretensions: (m, n_f, results) in the order of `_rows`."""
+    from fdspec.engines.devices import peaks_of
+
+    rows = _rows(grid)
+    results = np.empty((frames.shape[0], grid.pretension.size, len(rows)))
+    for i, (m_f, _, k_f, m_d, c_d, k_d) in enumerate(frames):
+        for j, forces in enumerate(zip(grid.slip_force, grid.kinetic_slip_force, strict=True)):
+            damping = ModalDamping(grid.damping_ratio)
+            building = Building(m_f, k_f, m_d, k_d, *forces, damping, c_d, **grid.devices)
+            storey, whole = peaks_of(building, motion)
+            found = {name: float(values[0]) for name, values in storey.items()} | whole
+            found["peak_base_shear"] = found["peak_storey_shear"]
+            results[i, j] = [found[name] for name in rows]
+    return results
+
+
+def _rows(grid: Grid) -> tuple[str, ...]:
+    """Return the results of a history, in their order."""
+    from fdspec.kernels.storey.history import RESULTS
+
+    return (*RESULTS, *_demands(grid)) if grid.devices else (*RESULTS, *STRAIN)
 
 
 def _block(
@@ -384,9 +449,7 @@ def _variables(
     wanted: Sequence[str],
 ) -> dict[str, NDArray[Any]]:
     """Put what the tasks returned where it stands in the cube."""
-    from fdspec.kernels.storey.history import RESULTS
-
-    rows = (*RESULTS, *STRAIN)
+    rows = _rows(grid)
     n_sr, n_f, n_t = grid.shape
     responses: dict[str, NDArray[Any]] = {
         name: np.empty((n_r, n_sr, n_f, n_t), dtype=CUBE[name].dtype) for name in wanted if name in rows

@@ -15,7 +15,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from fdspec.model.building import Frame
+from fdspec.model.building import Building, Frame
 from fdspec.model.building_grid import BuildingGrid, Buildings
 from fdspec.model.motion import GroundMotion
 from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_history
@@ -23,7 +23,7 @@ from fdspec.runs.cube import assemble, chosen, named
 from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.threads import Task, cores, fan_out, plan, require_per_task
-from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS
+from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS, demand_variables
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -46,7 +46,11 @@ WINDOW: Final = 400
 """Samples of the record that they are computed under."""
 
 LIMITS: Final = ("elastic_acceleration", "braced_acceleration")
-RESPONSES: Final = tuple(v.name for v in BUILDING_CUBE.values() if v.dims[:4] == BUILDING_DIMS)
+DEMANDS: Final = tuple(v.name for v in demand_variables(()))
+"""Outputs of sweeps with devices alone."""
+RESPONSES: Final = tuple(
+    v.name for v in BUILDING_CUBE.values() if v.dims[:4] == BUILDING_DIMS and v.name not in DEMANDS
+)
 OUTPUTS: Final = (*RESPONSES, *LIMITS)
 
 
@@ -108,6 +112,8 @@ def sweep_buildings(
     Returns
     -------
     xarray.Dataset
+        Where a building has columns that yield, slots, gravity or links, all cells have the demands on
+        these too (`fdspec.variables.demand_variables`), and a history may end with the status ``collapsed``.
         Dims (record, building, stiffness_scale, slip_scale) and, for what each storey has of its own,
         storey; variables, units and meanings are those of `fdspec.variables.BUILDING_CUBE`.
 
@@ -139,7 +145,7 @@ def sweep_buildings(
     grid = BuildingGrid(buildings, stiffness_scale, slip_scale)
     motions = named(motions)
     require_per_task(cells_per_task, "cells_per_task")
-    wanted = chosen(outputs, OUTPUTS, certify)
+    wanted = chosen(outputs, known_outputs(grid), certify)
     histories = _ends(grid)[-1 if set(LIMITS) & set(wanted) else 0]
     refuse_endless(motions, grid, wanted, store)
     seconds = _seconds(motions, grid, histories)
@@ -153,7 +159,7 @@ def sweep_buildings(
         fan_out,
         motions=motions,
         each=1,
-        warm=_warm,
+        warm=partial(_warm, _with_devices(grid)),
         workers=workers,
         scheduler=scheduler,
         client=client,
@@ -190,7 +196,12 @@ def sweep_buildings(
             expected / 60.0,
         )
     parts = fan(partial(_run, grid, certify), tasks=tasks)
-    return cube_of(_variables(grid, len(motions), tasks, parts, wanted))
+    return cube_of(_variables(grid, _rows(grid), len(motions), tasks, parts, wanted))
+
+
+def known_outputs(grid: BuildingGrid) -> tuple[str, ...]:
+    """Return what can be computed of these buildings: of devices, where there are some."""
+    return (*OUTPUTS, *_demands(grid))
 
 
 def parameters_of(grid: BuildingGrid, wanted: Sequence[str], certify: bool) -> dict[str, object]:
@@ -239,8 +250,7 @@ def measured(motions: Sequence[GroundMotion], grid: BuildingGrid, certify: bool 
 
     They are taken around the strongest shaking, so that it is rather too much.
     """
-    from fdspec.engines.many_storeys import peaks_of
-
+    _warm(_with_devices(grid))
     longest = max(motions, key=lambda motion: motion.n)
     peak = int(np.argmax(np.abs(longest.acceleration)))
     first = max(0, min(peak - WINDOW // 4, longest.n - WINDOW))
@@ -248,10 +258,9 @@ def measured(motions: Sequence[GroundMotion], grid: BuildingGrid, certify: bool 
     cells = _ends(grid)[0]
     count = min(cells, SAMPLE)
     chosen_cells = ((np.arange(count) + 0.5) * cells / count).astype(np.int64)
-    peaks_of(_frame(grid, int(chosen_cells[0])), window, certify=certify)  # loads the kernels
+    _run(grid, certify, chosen_cells[:1], window)  # loads the kernels
     started = time.thread_time()
-    for cell in chosen_cells:
-        peaks_of(_frame(grid, int(cell)), window, certify=certify)
+    _run(grid, certify, chosen_cells, window)
     each = (time.thread_time() - started) / (count * window.n)
     return each * sum(motion.n for motion in motions) * _ends(grid)[-1]
 
@@ -276,15 +285,18 @@ def _block(
 ) -> dict[str, NDArray[np.generic]]:
     """Compute the part of the cube that these cells, a block of all three axes, make up."""
     b, k, s = map(np.unique, np.unravel_index(cells, grid.shape))
-    part = grid.part(b, k, s)
     # What lacks an axis is computed with the block that comes first along it.
     first = {"building": True, "stiffness_scale": k[0] == 0, "slip_scale": s[0] == 0}
     mine = [
         name for name in wanted if all(first[dim] for dim in CELLS if dim not in BUILDING_CUBE[name].dims)
     ]
-    ends = dict(zip(("", "braced_acceleration", "elastic_acceleration"), _ends(part), strict=True))
-    items = np.arange(max(end for name, end in ends.items() if not name or name in mine))
-    return _variables(part, 1, [Task(0, items)], [_run(part, certify, items, motion)], mine)
+    items = [cells]
+    if set(LIMITS) & set(mine):
+        end, braced, _ = _ends(grid)
+        items += [end + (b[:, np.newaxis] * grid.shape[1] + k).ravel(), braced + b]
+    part, numbers = grid.part(b, k, s), np.concatenate(items)
+    task = Task(0, np.arange(numbers.size))
+    return _variables(part, _rows(grid), 1, [task], [_run(grid, certify, numbers, motion)], mine)
 
 
 def _ends(grid: BuildingGrid) -> tuple[int, int, int]:
@@ -318,42 +330,102 @@ def _frame(grid: BuildingGrid, history: int) -> Frame:
     return given._replace(properties=properties)
 
 
-def _warm() -> None:
-    import fdspec.engines.many_storeys  # noqa: F401
+def _building(grid: BuildingGrid, history: int) -> Building:
+    """Return the building of one cell, with its dampers scaled."""
+    _, n_k, n_s = grid.shape
+    column, s = divmod(history, n_s)
+    b, k = divmod(column, n_k)
+    return grid.buildings[b].with_changes(
+        brace_stiffness=grid.brace_stiffness[b, k],
+        brace_damping=grid.brace_damping[b, k],
+        slip_force=grid.slip_force[b, s],
+        kinetic_slip_force=grid.kinetic_slip_force[b, s],
+    )
+
+
+def _with_devices(grid: BuildingGrid) -> bool:
+    """Whether any building has devices: then all cells have the results that devices add."""
+    return any(building.has_devices for building in grid.buildings)
+
+
+def _warm(devices: bool) -> None:
+    import fdspec.engines.many_storeys
+
+    if devices:
+        import fdspec.engines.devices  # noqa: F401
 
 
 def _run(
     grid: BuildingGrid, certify: bool, histories: IntArray, motion: GroundMotion
 ) -> tuple[FloatArray, FloatArray]:
     """Integrate some histories of a record: results by storey (m, rows, N) and totals (m, entries)."""
-    from fdspec.engines.many_storeys import peaks_of
-
-    cells = _ends(grid)[0]
-    results = [
-        peaks_of(_frame(grid, int(history)), motion, certify=certify and bool(history < cells))
-        for history in histories
-    ]
+    results = [_run_one(grid, certify, int(history), motion) for history in histories]
     return np.stack([by_storey for by_storey, _ in results]), np.stack([totals for _, totals in results])
+
+
+def _run_one(
+    grid: BuildingGrid, certify: bool, history: int, motion: GroundMotion
+) -> tuple[FloatArray, FloatArray]:
+    """Integrate one history by the engine for its building: rows of `_rows` (rows, N), and TOTALS.
+
+    The limits that ride along are those of the elastic frame. Beside a building with devices, one without
+    is integrated by both engines: its peaks are those of the engine of frames, to the bit.
+    """
+    from fdspec.engines.many_storeys import peaks_of
+    from fdspec.kernels.frame.history import STOREY_RESULTS, TOTALS
+
+    cell = history < _ends(grid)[0]
+    if not _with_devices(grid):
+        return peaks_of(_frame(grid, history), motion, certify=certify and cell)
+    if not cell:
+        by_storey, totals = peaks_of(_frame(grid, history), motion, certify=False)
+        missing = np.zeros((len(_rows(grid)) - len(STOREY_RESULTS), grid.n_storeys))
+        return np.concatenate([by_storey, missing]), totals
+    from fdspec.engines.devices import peaks_of as peaks_with_devices
+
+    building = _building(grid, history)
+    storeys, whole = peaks_with_devices(building, motion)
+    table = np.stack([storeys[name] for name in _rows(grid)])
+    totals = np.array([whole[name] for name in TOTALS])
+    if not building.has_devices:
+        table[: len(STOREY_RESULTS)], totals = peaks_of(_frame(grid, history), motion, certify=certify)
+    return table, totals
+
+
+def _rows(grid: BuildingGrid) -> tuple[str, ...]:
+    """Return the names of what each storey has of its own."""
+    from fdspec.kernels.frame.history import STOREY_RESULTS
+
+    return (*STOREY_RESULTS, *_demands(grid))
+
+
+def _demands(grid: BuildingGrid) -> tuple[str, ...]:
+    """Return what only a cube with devices in it has of each storey."""
+    if not _with_devices(grid):
+        return ()
+    known = all(not np.isnan(building.storey_height).any() for building in grid.buildings)
+    return tuple(name for name in DEMANDS if known or name != "peak_drift_ratio")
 
 
 def _variables(
     grid: BuildingGrid,
+    rows: Sequence[str],
     n_r: int,
     tasks: Sequence[Task],
     parts: Sequence[tuple[FloatArray, FloatArray]],
     wanted: Sequence[str],
 ) -> dict[str, NDArray[np.generic]]:
     """Put what the tasks returned where it stands in the cube."""
-    from fdspec.kernels.frame.history import STOREY_RESULTS, TOTALS
+    from fdspec.kernels.frame.history import TOTALS
 
     cells, braced, bare = _ends(grid)
     histories = 1 + max(int(task.items.max()) for task in tasks)
-    by_storey = np.empty((len(STOREY_RESULTS), n_r, histories, grid.n_storeys))
+    by_storey = np.empty((len(rows), n_r, histories, grid.n_storeys))
     totals = np.empty((len(TOTALS), n_r, histories))
     for (r, items), (of_storeys, of_all) in zip(tasks, parts, strict=True):
         by_storey[:, r, items] = of_storeys.transpose(1, 0, 2)
         totals[:, r, items] = of_all.T
-    results = dict(zip(STOREY_RESULTS, by_storey, strict=True)) | dict(zip(TOTALS, totals, strict=True))
+    results = dict(zip(rows, by_storey, strict=True)) | dict(zip(TOTALS, totals, strict=True))
     results["peak_base_shear"] = results["peak_storey_shear"][..., 0]
     results["residual_drift"] = np.diff(results["residual_displacement"], prepend=0.0)
     acceleration = results["peak_acceleration"]

@@ -241,7 +241,7 @@ _OLDER: Final = "; written before axes and attributes had checksums, so of these
 
 def _statuses(cube: xr.Dataset) -> Finding:
     counts = status_counts(cube)
-    told = ", ".join(f"{number} {meaning}" for meaning, number in counts.items())
+    told = ", ".join(f"{number:,} {meaning}".replace(",", " ") for meaning, number in counts.items())
     return Finding("statuses", set(counts) == {"ok"}, told)
 
 

@@ -10,18 +10,26 @@ import numpy as np
 import pytest
 import xarray as xr
 from axe_playwright_python.sync_playwright import Axe
-from playwright.sync_api import Download, Page, Response
+from playwright.sync_api import Browser, Download, Page, Response
 
 import fdspec
 from fdspec import store
 from fdspec.cli import main
 from fdspec.units import G
-from tests.browser.conftest import NARROW, PATIENCE, WIDE, Watched
+from tests.browser.conftest import NARROW, PATIENCE, SETTLED, WIDE, Watched
 from tests.explored import PERIOD, PRETENSION, STIFFNESS_RATIO, own_motion, small_cube, unpack
 
 pytestmark = pytest.mark.browser
 
-CARDS = ["map-0", "surface-0", "history-0", "over-pretension", "best-pretension"]
+CARDS = [
+    "map-0",
+    "surface-0",
+    "history-0",
+    "over-pretension",
+    "best-pretension",
+    "all-records",
+    "energy-0",
+]
 
 
 def drawn(page: Page, card: str, trace: int = 0) -> dict[str, Any]:
@@ -290,7 +298,7 @@ def test_everything_is_reached_and_used_by_keys(wide: Watched, address: str, cub
     page = wide.open(address)
     reached = []
     page.locator("body").press("Tab")
-    for _ in range(60):
+    for _ in range(100):
         reached.append(
             page.evaluate("document.activeElement.id || document.activeElement.textContent.trim()")
         )
@@ -305,8 +313,8 @@ def test_everything_is_reached_and_used_by_keys(wide: Watched, address: str, cub
     wide.settled()
     page.locator("#best").press("Enter")
     wide.settled()
-    peaks = cube["peak_acceleration"].sel(record="FSR1", stiffness_ratio=4.0, period=PERIOD[-1])
-    assert f"{peaks.min().item() / G:.4g} g" in words(page, "history-0")
+    best = fdspec.best_pretension(fdspec.load_record("FSR1"), period=PERIOD[-1], stiffness_ratio=4.0)
+    assert f"{best['peak_acceleration'].item() / G:.4g} g" in words(page, "history-0")
     before = page.locator("#surface-0 .plot").screenshot()
     page.locator("#turn").press("PageUp")
     page.wait_for_timeout(500)
@@ -346,7 +354,9 @@ def test_axe_finds_no_violation_and_nothing_sticks_out(
     found = Axe().run(page)
     assert found.violations_count == 0, found.generate_report()
     assert page.evaluate("document.documentElement.scrollWidth") == size["width"]
-    boxes = [locator.bounding_box() for locator in page.locator("figure, #controls, details").all()]
+    boxes = [
+        locator.bounding_box() for locator in page.locator("header, figure, #controls, main details").all()
+    ]
     for k, one in enumerate(boxes):
         assert one is not None
         assert one["x"] >= 0
@@ -359,12 +369,185 @@ def test_axe_finds_no_violation_and_nothing_sticks_out(
 
 
 def test_a_view_is_kept_in_its_address(wide: Watched, address: str, cube: xr.Dataset) -> None:
-    page = wide.open(address + "#record=1&ratio=2&period=4&force=3&index=3&compare=0")
+    page = wide.open(address + VIEW)
     assert np.allclose(drawn(page, "map-0")["z"], slice_of(cube, "FMR1", 8.0, "peak_displacement") * 1e3)
     assert "period 1.2 s, stiffness ratio 8, pretension 210 kN" in page.locator(
         "#history-0 h2"
     ).inner_text().replace("\xa0", " ")
     assert page.locator("#map-1").count() == 1
+
+
+VIEW = "#record=FMR1&index=displacement&compare=FSR1&stiffness_ratio=8&period=1.2&pretension=210"
+
+
+def test_a_link_pasted_into_an_open_page_and_the_back_button(wide: Watched, address: str) -> None:
+    page = wide.open(address)
+    first = page.evaluate("location.hash")
+    page.evaluate(f"location.hash = '{VIEW}'")
+    page.wait_for_function("document.querySelector('#record').selectedOptions[0].text === 'FMR1'")
+    wide.settled()
+    assert "FMR1, stiffness ratio 8" in page.locator("#map-0 h2").inner_text()
+    assert page.locator("#index").evaluate("(one) => one.selectedOptions[0].text") == "Peak displacement"
+    page.go_back()
+    page.wait_for_function("document.querySelector('#record').selectedOptions[0].text === 'FSR1'")
+    wide.settled()
+    assert page.evaluate("location.hash") == first
+    page.select_option("#record", label="FMR1")
+    wide.settled()
+    page.go_back()
+    page.wait_for_function("document.querySelector('#record').selectedOptions[0].text === 'FSR1'")
+    wide.settled()
+
+
+def test_a_history_at_any_numbers(wide: Watched, address: str) -> None:
+    page = wide.open(address)
+    page.locator("#anywhere summary").click()
+    typed = {
+        "period": 0.43,
+        "stiffness_ratio": 5.5,
+        "pretension": 77.0,
+        "floor_mass": 35.0,
+        "damping_ratio": 0.03,
+    }
+    for name, value in typed.items():
+        page.locator(f"#field-{name}").fill(f"{value:g}")
+        page.locator(f"#field-{name}").press("Tab")
+        wide.settled()
+    frame = fdspec.Building.single_storey(0.43, 5.5, 0.5 * 77e3, floor_mass=35e3, damping_ratio=0.03)
+    history = fdspec.simulate(frame, fdspec.load_record("FSR1"))
+    assert f"{history['peak_acceleration'].item() / G:.4g} g" in words(page, "history-0")
+    title = page.locator("#history-0 h2").inner_text().replace("\xa0", " ")
+    assert (
+        "period 0.43 s, stiffness ratio 5.5, pretension 77 kN, floor mass 35 t, damping ratio 0.03" in title
+    )
+    assert drawn(page, "map-0", 2)["x"] == [0.43]
+    energy = drawn(page, "energy-0")["y"]
+    assert energy[-1] == pytest.approx(history["dissipated_energy"].item() / 1e3, rel=1e-9)
+    kept = page.evaluate("location.href")
+    page.goto("about:blank")
+    wide.open(kept)
+    assert page.locator("#history-0 h2").inner_text().replace("\xa0", " ") == title
+    page.locator("#field-period").evaluate("(one) => one.closest('details').open = true")
+    page.locator("#field-period").fill("0")
+    page.locator("#field-period").press("Tab")
+    wide.settled()
+    assert "period must be from 0.01 s to 100 s, got 0" in page.locator("#status").inner_text()
+    assert [text for text in wide.complaints if "422" not in text] == []
+    wide.complaints.clear()
+
+
+def test_the_best_that_was_searched_has_its_history(wide: Watched, address: str) -> None:
+    page = wide.open(address)
+    best = fdspec.best_pretension(fdspec.load_record("FSR1"), period=0.5, stiffness_ratio=4.0)
+    page.locator("#best").click()
+    wide.settled()
+    wide.page.wait_for_function("document.querySelector('#history-0 h2').textContent.includes('kN')")
+    assert f"pretension {best['pretension'].item() / 1e3:.4g} kN" in page.locator(
+        "#history-0 h2"
+    ).inner_text().replace("\xa0", " ")
+    assert f"{best['peak_acceleration'].item() / G:.4g} g" in words(page, "history-0")
+
+
+def test_all_records_at_once(wide: Watched, address: str, cube: xr.Dataset) -> None:
+    page = wide.open(address)
+    over = cube["peak_acceleration"].sel(stiffness_ratio=4.0, period=0.5) / G
+    count = cube.sizes["record"]
+    lines = [drawn(page, "all-records", k) for k in range(count + 3)]
+    for k in range(count):
+        assert lines[k]["y"] == pytest.approx(over.isel(record=k).values, rel=1e-12)
+    told = fdspec.measures.ensemble(over)["peak_acceleration"]
+    for line, name in zip(lines[count:], ("median", "p84", "worst"), strict=True):
+        assert line["y"] == pytest.approx(told.sel(statistic=name).values, rel=1e-12), name
+
+
+def test_maps_and_surfaces_of_two_records_go_together(wide: Watched, address: str) -> None:
+    page = wide.open(address)
+    page.select_option("#compare", label="FMR1")
+    wide.settled()
+    zoom = "{'xaxis.range[0]': 0.3, 'xaxis.range[1]': 0.9}"
+    page.evaluate(f"Plotly.relayout(document.querySelector('#map-0 .plot'), {zoom})")
+    other = "document.querySelector('#map-1 .plot')._fullLayout.xaxis.range"
+    page.wait_for_function(f"Math.abs({other}[1] - 0.9) < 1e-9")
+    assert page.evaluate(other) == pytest.approx([0.3, 0.9])
+    eye = "{eye: {x: 1, y: 1, z: 1}, up: {x: 0, y: 0, z: 1}, center: {x: 0, y: 0, z: 0}}"
+    page.evaluate(f"Plotly.relayout(document.querySelector('#surface-0 .plot'), {{'scene.camera': {eye}}})")
+    page.wait_for_function("document.querySelector('#turn').value === '45'")
+    assert page.evaluate("document.querySelector('#surface-1 .plot')._fullLayout.scene.camera.eye.x") == 1
+
+
+def test_turning_the_surface_moves_no_point(wide: Watched, address: str) -> None:
+    page = wide.open(address)
+    box = page.locator("#surface-0 .plot").bounding_box()
+    assert box is not None
+    before, asked = page.evaluate("location.hash"), len(wide.requests)
+    x, y = box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"]
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 80, y, steps=8)
+    page.wait_for_timeout(300)
+    page.mouse.up()
+    page.wait_for_timeout(500)
+    wide.settled()
+    assert page.evaluate("location.hash") == before
+    assert not [url for url in wide.requests[asked:] if "history" in url]
+
+
+def test_what_a_mark_says_can_be_read(wide: Watched, address: str) -> None:
+    page = wide.open(address)
+    for dark in (False, True):
+        for card in CARDS:
+            label = page.evaluate(f"document.querySelector('#{card} .plot').layout.hoverlabel")
+            ground = luminance(np.array(channels(label["bgcolor"])))
+            letters = luminance(np.array(channels(label["font"]["color"])))
+            light, low = max(letters, ground), min(letters, ground)
+            assert (light + 0.05) / (low + 0.05) >= 4.5, (card, dark)
+        page.locator("#theme").click()
+        page.wait_for_timeout(1500)
+    units = [drawn(page, "history-0", k)["hovertemplate"] for k in range(6)]
+    assert all(any(f" {unit}" in text for unit in ("mm", "kN", "g")) for text in units)
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("width", [390, 1440, 2560])
+def test_the_layout_at_three_widths_light_and_dark(
+    browser: Browser, address: str, width: int, scheme: str
+) -> None:
+    context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme)  # type: ignore[arg-type]
+    context.set_default_timeout(PATIENCE)
+    page = context.new_page()
+    page.goto(address)
+    page.wait_for_function(SETTLED, timeout=PATIENCE)
+    page.locator("#help summary").click()
+    page.locator("#anywhere summary").click()
+    assert page.evaluate("document.documentElement.dataset.theme") == scheme
+    assert page.evaluate("document.documentElement.scrollWidth") == width
+    boxes = [locator.bounding_box() for locator in page.locator("figure, #controls, header").all()]
+    right = max(box["x"] + box["width"] for box in boxes if box)
+    assert width - 40 <= right <= width  # nothing sticks out, and nothing stays empty
+    slider, surface = page.locator("#turn").bounding_box(), page.locator("#surface-0").bounding_box()
+    assert slider is not None
+    assert surface is not None
+    assert surface["y"] < slider["y"] < surface["y"] + surface["height"]
+    found = Axe().run(page)
+    assert found.violations_count == 0, found.generate_report()
+    context.close()
+
+
+def test_the_page_prints_whole_on_a4(wide: Watched, address: str, tmp_path: Path) -> None:
+    page = wide.open(address)
+    page.emulate_media(media="print")
+    page.set_viewport_size({"width": 690, "height": 1000})
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    page.wait_for_timeout(1000)
+    for card in CARDS:
+        box = (
+            page.locator(f"#{card} .main-svg").first.bounding_box()
+            if not card.startswith("surface")
+            else None
+        )
+        if box is not None:
+            assert box["x"] + box["width"] <= 690, card
+    assert page.locator("#controls").is_hidden()
 
 
 def test_the_file_needs_no_server(wide: Watched, folder: Path, cube: xr.Dataset, tmp_path: Path) -> None:

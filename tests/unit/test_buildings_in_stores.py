@@ -1,4 +1,4 @@
-"""A sweep over buildings that goes through a store: the same bits, however it is cut and wherever it stops."""
+"""A sweep over buildings that goes through a store: the same bits, however cut and wherever stopped."""
 
 from __future__ import annotations
 
@@ -35,9 +35,7 @@ def plain() -> xr.Dataset:
 @pytest.mark.parametrize("cells_per_task", [None, 1, 2, 3, 4, 6, 100])
 def test_the_bits_of_the_plain_sweep(plain: xr.Dataset, tmp_path: Path, cells_per_task: int | None) -> None:
     store = tmp_path / "cube.zarr"
-    swept = fdspec.sweep_buildings(
-        motions(), unlike(), **AXES, store=store, cells_per_task=cells_per_task
-    )
+    swept = fdspec.sweep_buildings(motions(), unlike(), **AXES, store=store, cells_per_task=cells_per_task)
     assert swept.load().identical(plain)
     to_netcdf(store, tmp_path / "cube.nc")
     assert fdspec.open(tmp_path / "cube.nc").identical(plain)
@@ -45,9 +43,7 @@ def test_the_bits_of_the_plain_sweep(plain: xr.Dataset, tmp_path: Path, cells_pe
         assert {finding.what for finding in check(path) if finding.passed is False} == set()
 
 
-def test_one_that_stopped_goes_on(
-    plain: xr.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_one_that_stopped_goes_on(plain: xr.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     store = tmp_path / "cube.zarr"
     how: dict[str, Any] = {"store": store, "cells_per_task": 1, "scheduler": "synchronous"}
     write, left = chunks.write, [5]
@@ -90,16 +86,19 @@ def test_another_building_is_refused_by_name_and_part(tmp_path: Path) -> None:
     store, buildings = tmp_path / "cube.zarr", unlike()
     fdspec.sweep_buildings(motions(), buildings, **AXES, store=store).close()
     name, building = next(iter(buildings.items()))
-    other = {**buildings, name: fdspec.Building(
-        building.floor_mass,
-        building.storey_stiffness,
-        building.brace_mass,
-        building.brace_stiffness,
-        building.slip_force * 1.01,
-        building.kinetic_slip_force,
-        building.damping,
-        building.brace_damping,
-    )}
+    other = {
+        **buildings,
+        name: fdspec.Building(
+            building.floor_mass,
+            building.storey_stiffness,
+            building.brace_mass,
+            building.brace_stiffness,
+            building.slip_force * 1.01,
+            building.kinetic_slip_force,
+            building.damping,
+            building.brace_damping,
+        ),
+    }
     with pytest.raises(StoreError, match=f"building {name} has another slip_force; name another store"):
         fdspec.sweep_buildings(motions(), other, **AXES, store=store)
     fewer = dict(list(buildings.items())[1:])
@@ -109,11 +108,11 @@ def test_another_building_is_refused_by_name_and_part(tmp_path: Path) -> None:
     with pytest.raises(StoreError, match="the buildings stand in another order"):
         fdspec.sweep_buildings(motions(), turned, **AXES, store=store)
     swept = fdspec.sweep_buildings(motions(), other, **AXES, store=store, restart=True)
-    assert json.loads(swept.attrs["parameters"])["buildings"][name]["slip_force"][0] == other[name].slip_force[0]
+    assert (
+        json.loads(swept.attrs["parameters"])["buildings"][name]["slip_force"][0] == other[name].slip_force[0]
+    )
 
 
 def test_a_task_has_a_cell_at_least(tmp_path: Path) -> None:
     with pytest.raises(InvalidInput, match="cells_per_task must be at least 1, got 0"):
-        fdspec.sweep_buildings(
-            motions(), unlike(), **AXES, store=tmp_path / "cube.zarr", cells_per_task=0
-        )
+        fdspec.sweep_buildings(motions(), unlike(), **AXES, store=tmp_path / "cube.zarr", cells_per_task=0)

@@ -22,6 +22,8 @@ from fdspec.model.building import Building
 from fdspec.model.building_file import read_building
 from fdspec.model.motion import GroundMotion
 from fdspec.report import page, text
+from fdspec.report.findings import plainly, rounded
+from fdspec.report.inputs import MOTION_HEAD, first_mode, input_rows, motion_rows, storey_stiffness
 from fdspec.runs.study import STUDY_RECORDS
 from tests.unit.test_choice import clipped
 
@@ -210,6 +212,74 @@ def test_the_text_says_everything_that_was_asked(choice: xr.Dataset) -> None:
     assert str(worst) in line
 
 
+def test_lines_fit_the_width_and_no_column_is_lost(choice: xr.Dataset) -> None:
+    for width in (60, 80):
+        said = text(choice, width=width)
+        assert max(map(len, said.splitlines())) <= width
+        for name in ("regret", "braced", "upper"):
+            assert name in said
+        row = choice.sel(record="FSR3", case="upper")["peak_acceleration"].item() / 9.80665
+        assert f"{row:.3f}" in said
+
+
+def test_the_structure_is_told(choice: xr.Dataset, of_building: xr.Dataset) -> None:
+    assert (
+        "single-storey frame of period 0.5 s without braces, damping ratio 0.05, stiffness ratio 4"
+        in text(choice)
+    )
+    assert "frame of 2 storeys, first period 0.6 s without braces" in text(of_building)
+
+
+def test_inputs_are_those_of_the_building(of_building: xr.Dataset, building: Building) -> None:
+    told = dict(input_rows(of_building))
+    assert told["First period without braces"] == "0.6 s"
+    assert told["Floor mass"] == "20, 15 t"
+    assert told["Frame stiffness"] == f"{building.storey_stiffness[0] / 1e6:.3g} MN/m"
+    assert told["Bounds of friction"] == "0.8 and 1.2 times the nominal"
+    assert told["Slip forces over the height"] == "shear"
+
+
+def test_the_stiffness_of_storeys_is_read_off_a_shear_frame_alone() -> None:
+    k = np.array([5.0, 3.0, 2.0])
+    matrix = np.array([[8.0, -3.0, 0.0], [-3.0, 5.0, -2.0], [0.0, -2.0, 2.0]])
+    assert storey_stiffness(matrix).tolist() == k.tolist()
+    matrix[0, 2] = matrix[2, 0] = -0.1
+    assert storey_stiffness(matrix) is None
+    period, ratio = first_mode([2.0], [[8.0]], [[0.4]])
+    assert (period, ratio) == pytest.approx((np.pi, 0.4 / (2.0 * 2.0 * 2.0)))
+
+
+def test_ground_motions_are_told_with_their_earthquakes(
+    choice: xr.Dataset, motions: list[GroundMotion]
+) -> None:
+    first = dict(zip(MOTION_HEAD, motion_rows(choice)[0], strict=True))
+    assert first["record"] == "FSR1"
+    assert first["magnitude"] == "6.9"
+    assert first["factor"] == f"{motions[0].scale_factor:.3f}"
+    unnamed = choice.sel(record=["FSR1"]).assign_coords(record=["mine"])
+    assert dict(zip(MOTION_HEAD, motion_rows(unnamed)[0], strict=True))["magnitude"] == "not stated"
+
+
+def test_the_answer_is_one_for_a_client(choice: xr.Dataset, of_building: xr.Dataset) -> None:
+    said = plainly(choice)
+    force = choice["pretension"].item() / 1e3
+    assert said.startswith(
+        f"Clamp the friction damper with a total pretension of {force:.3g} kN, so that it slips at "
+    )
+    assert "On average over the 3 ground motions the peak acceleration of the floors is then " in said
+    assert "Clamp each friction damper" in plainly(of_building)
+    assert "Leave the dampers out" in plainly(altered(choice, pretension=lambda _: 0.0))
+
+
+def test_long_numbers_are_written_whole() -> None:
+    assert [rounded(value) for value in (0.12345, 999.4, 9710.2, 12600.0)] == [
+        "0.123",
+        "999",
+        "9710",
+        "12 600",
+    ]
+
+
 def altered(choice: xr.Dataset, **changes: Callable[[xr.DataArray], Any]) -> xr.Dataset:
     found = choice.copy(deep=True)
     for name, change in changes.items():
@@ -284,7 +354,7 @@ def needs_nothing_else(html: str) -> Reader:
     assert found.language == "en"
     assert not {"script", "link", "iframe"} & set(found.tags)
     assert found.references
-    assert all(reference.startswith("data:image/png;base64,") for reference in found.references)
+    assert all(reference.startswith("data:image/svg+xml;base64,") for reference in found.references)
     assert all(len(words) > 80 for words in found.alternatives)
     assert found.tags.count("h1") == 1
     assert "What this assumes" in html
@@ -294,9 +364,15 @@ def needs_nothing_else(html: str) -> Reader:
 def test_the_page_of_a_building_has_a_table_of_storeys(
     of_building: xr.Dataset, building: Building, motions: list[GroundMotion]
 ) -> None:
-    html = page(of_building, building, motions[:2])
+    how = {"title": 'Dampers <of> a "house"', "project": "Harbour & Street", "author": "A. <Engineer>"}
+    html = page(of_building, building, motions[:2], **how)
+    assert html.count("<h1>Dampers &lt;of&gt; a &quot;house&quot;</h1>") == 1
+    assert "Harbour &amp; Street &middot; A. &lt;Engineer&gt; &middot; " in html
+    assert '<meta name="author" content="A. &lt;Engineer&gt;">' in html
+    assert "</style" not in html.partition("<style>")[2].partition("@media print")[2].partition("</style>")[0]
+    assert html == page(of_building, building, motions[:2], **how)
     assert "Storey by storey" in html
-    assert len(needs_nothing_else(html).alternatives) == 3 + 2
+    assert len(needs_nothing_else(html).alternatives) == 4 + 2
 
 
 # ---- the command and building files ----
@@ -314,7 +390,7 @@ def test_the_command_writes_page_and_numbers(tmp_path: Path, capsys: pytest.Capt
     assert json.loads(saved.attrs["parameters"])["index"] == {"acceleration": 0.25, "displacement": 0.75}
     written = html.read_text(encoding="utf-8")
     assert written.startswith("<!DOCTYPE html>")
-    assert len(needs_nothing_else(written).alternatives) == 4
+    assert len(needs_nothing_else(written).alternatives) == 5
     assert f"{saved['pretension'].item() / 1e3:.3g} kN" in written
     assert main([*how, "--html", str(html)]) == 2
     assert "exists already" in capsys.readouterr().err
@@ -329,6 +405,7 @@ def test_the_command_writes_page_and_numbers(tmp_path: Path, capsys: pytest.Capt
         (["--building", "none.toml"], "cannot read the building none.toml"),
         (["--building", "none.toml", "--period", "1"], "--period is of the single-storey frame"),
         (["--html", "page.txt"], ".html"),
+        (["--project", "Harbour Street"], "--title, --project and --author are of the page"),
     ],
 )
 def test_wrong_use_is_told_in_a_line(

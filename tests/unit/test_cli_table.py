@@ -2,7 +2,17 @@
 
 import pytest
 
-from fdspec.cli.table import counted, grouped, seconds, size, table
+from fdspec.cli import table as module
+from fdspec.cli.table import (
+    counted,
+    filled,
+    grouped,
+    seconds,
+    size,
+    table,
+    terminal_width,
+    text_width,
+)
 
 
 def test_columns_line_up_and_lines_end_with_no_blanks() -> None:
@@ -38,3 +48,65 @@ def test_times(time: float, text: str) -> None:
 )
 def test_sizes(n_bytes: float, text: str) -> None:
     assert size(n_bytes) == text
+
+
+@pytest.fixture
+def narrow(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Give a terminal of 60 letters."""
+    monkeypatch.setattr(module, "on_terminal", lambda: True)
+    monkeypatch.setenv("COLUMNS", "60")
+    monkeypatch.delenv("NO_COLOR", raising=False)
+
+
+HEAD = ("claim", "verdict", "the study says")
+LONG = "beyond stiffness ratio 4 the response is least for a pretension of 100 to 250 kN"
+
+
+def test_in_a_pipe_lines_stay_whole() -> None:
+    assert f"(c)    holds    {LONG}" in table(HEAD, [("(c)", "holds", LONG)], left=HEAD)
+    assert terminal_width() is None
+    assert text_width() == 110
+
+
+def test_a_last_column_of_text_is_folded_to_the_terminal(narrow: None) -> None:
+    lines = table(HEAD, [("(c)", "holds", LONG), ("(d)", "holds", "short")], left=HEAD).splitlines()
+    assert max(map(len, lines)) <= 60
+    assert " ".join(line[16:].strip() for line in lines[1:-1]) == LONG
+    assert lines[-1].split() == ["(d)", "holds", "short"]
+
+
+def test_columns_of_numbers_stand_in_blocks_that_begin_with_the_name(narrow: None) -> None:
+    head = ("record", *(f"column {k}" for k in range(9)))
+    rows = [("FSR1", *(f"{k}.125" for k in range(9)))]
+    text = table(head, rows, left=("record",))
+    assert max(map(len, text.splitlines())) <= 60
+    blocks = text.split("\n\n")
+    assert len(blocks) == 2
+    assert all(block.splitlines()[1].startswith("FSR1 ") for block in blocks)
+    assert [cell for block in blocks for cell in block.splitlines()[1].split()[1:]] == list(rows[0][1:])
+
+
+def test_running_text_breaks_between_words(narrow: None) -> None:
+    lines = filled(LONG, first="c1  ", rest="    ").splitlines()
+    assert max(map(len, lines)) <= 60
+    assert " ".join(line[4:] for line in lines) == LONG
+
+
+@pytest.mark.parametrize(("columns", "width"), [("20", 40), ("80", 80), ("300", 110)])
+def test_running_text_is_never_too_wide_to_read(
+    narrow: None, monkeypatch: pytest.MonkeyPatch, columns: str, width: int
+) -> None:
+    monkeypatch.setenv("COLUMNS", columns)
+    assert text_width() == width
+
+
+def test_colour_is_for_terminals_and_not_where_no_color_is_set(
+    narrow: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    coloured = table(("a", "b"), [("x", "pass")], colours={"pass": "green"})
+    assert "\x1b[32mpass\x1b[0m" in coloured
+    monkeypatch.setenv("NO_COLOR", "1")
+    assert "\x1b" not in table(("a", "b"), [("x", "pass")], colours={"pass": "green"})
+    monkeypatch.delenv("NO_COLOR")
+    monkeypatch.setattr(module, "on_terminal", lambda: False)
+    assert "\x1b" not in table(("a", "b"), [("x", "pass")], colours={"pass": "green"})

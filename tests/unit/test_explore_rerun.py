@@ -11,7 +11,9 @@ from fdspec import store
 from fdspec.errors import InvalidInput, RecordError
 from fdspec.explore.best import packed_best
 from fdspec.explore.motions import Found, Motions, read_given
-from fdspec.explore.rerun import COMPARED, LOOP_FINER, Rerun, loop
+from fdspec.explore.point import FIELDS, frame_at, packed_point, point_of
+from fdspec.explore.rerun import Rerun
+from fdspec.explore.traces import COMPARED, ENERGIES
 from fdspec.model.motion import GroundMotion
 from fdspec.units import G
 from tests.explored import PERIOD, own_motion, small_cube, unpack
@@ -155,24 +157,11 @@ def test_a_cube_without_its_parameters(cube: xr.Dataset) -> None:
         Rerun(cube.assign_attrs(parameters='{"brace_mass": 1.0}'))
 
 
-def test_the_loop_keeps_its_corners_and_loses_no_area() -> None:
-    """A cycle of Coulomb friction: stick upwards, slip, stick downwards, slip back."""
-    up = np.linspace(-50.0, 50.0, 41)
-    out = np.linspace(0.0, 8.0, 33)
-    slip = np.concatenate([np.zeros(41), out, np.full(41, 8.0), out[::-1], np.zeros(41)])
-    force = np.concatenate([up, np.full(33, 50.0), -up, np.full(33, -50.0), up])
-    x, y = loop(slip, force)
-    assert x.size <= 14
-    assert np.trapezoid(y, x) == pytest.approx(np.trapezoid(force, slip), rel=1e-12)
-    assert (x.min(), x.max(), y.min(), y.max()) == (0.0, 8.0, -50.0, 50.0)
-
-
 def test_the_drawn_loop_encloses_the_dissipated_energy(cube: xr.Dataset) -> None:
     about, arrays = unpack(Rerun(cube).packed(0, 1, 2, 2))
     dissipated = next(one["history"] for one in about["compared"] if "dissipated" in one["title"])
     drawn = np.trapezoid(arrays["loop_force"], arrays["loop_slip"]) / 1e3
     assert drawn == pytest.approx(dissipated, rel=0.02)
-    assert arrays["loop_slip"].size < LOOP_FINER * arrays["time"].size / 4
 
 
 def test_a_lazily_opened_cube_serves_as_well(tmp_path: Path, cube: xr.Dataset) -> None:
@@ -231,3 +220,50 @@ def test_an_index_that_is_not_searched(cube: xr.Dataset, index: str) -> None:
         packed_best(Rerun(cube), 0, 0, index)
     with pytest.raises(InvalidInput, match="record must be a position"):
         packed_best(Rerun(cube), 5, 0, "acceleration")
+
+
+TYPED = {
+    "period": "0.43",
+    "stiffness_ratio": "5.5",
+    "pretension": "77",
+    "floor_mass": "35",
+    "brace_mass": "80",
+    "damping_ratio": "0.03",
+    "friction_coefficient": "0.25",
+}
+
+
+def test_a_point_between_the_cubes_is_the_frame_that_was_typed(cube: xr.Dataset) -> None:
+    rerun = Rerun(cube)
+    point = point_of(TYPED)
+    frame = fdspec.Building.single_storey(
+        0.43, 5.5, 0.25 * 77e3, floor_mass=35e3, brace_mass=80.0, damping_ratio=0.03
+    )
+    assert frame_at(rerun, point) == frame
+    about, arrays = unpack(packed_point(rerun, 0, point))
+    history = fdspec.simulate(frame, fdspec.load_record("FSR1"))
+    assert about["compared"][0]["history"] == pytest.approx(
+        history["peak_acceleration"].item() / G, rel=1e-12
+    )
+    assert {one["cube"] for one in about["compared"]} == {None}
+    for name in ENERGIES:
+        assert arrays[name] == pytest.approx(history[name].values / 1e3, rel=1e-9, abs=1e-12)
+    bare = fdspec.simulate(
+        fdspec.Building.single_storey(0.43, 0.0, 0.0, floor_mass=35e3, brace_mass=0.0, damping_ratio=0.03),
+        fdspec.load_record("FSR1"),
+    )
+    assert arrays["bare_displacement"] == pytest.approx(bare["displacement"].values[:, 0] * 1e3)
+
+
+def test_kinetic_friction_keeps_its_share_at_a_point() -> None:
+    rerun = Rerun(small_cube(own_motion("FSR1"), **CHANGED))
+    frame = frame_at(rerun, point_of(TYPED))
+    assert frame.slip_force.tolist() == pytest.approx([0.25 * 2.0 * 77e3])
+    assert frame.kinetic_slip_force.tolist() == pytest.approx([0.75 * 0.25 * 2.0 * 77e3])
+
+
+@pytest.mark.parametrize("field", [field.name for field in FIELDS])
+@pytest.mark.parametrize("wrong", ["", "x", "nan", "inf", "-1", "1e30"])
+def test_a_point_that_cannot_be(field: str, wrong: str) -> None:
+    with pytest.raises(InvalidInput, match=r"must be (a number|from .* to .*), got"):
+        point_of({**TYPED, field: wrong})

@@ -3,6 +3,7 @@
 import io
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,13 +13,25 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
+import fdspec
 from fdspec.errors import InvalidInput
-from fdspec.figures import acceleration_caption, plot_acceleration, plot_acceleration_maps, plot_history
+from fdspec.figures import (
+    acceleration_caption,
+    ensemble_caption,
+    plot_acceleration,
+    plot_acceleration_maps,
+    plot_acceleration_print,
+    plot_chart,
+    plot_ensemble,
+    plot_history,
+)
 from fdspec.figures.encoding import encode
-from fdspec.figures.panels import BEST, HEIGHT
+from fdspec.figures.panels import BAND, BEST, HEIGHT
 from fdspec.figures.storeys import phase_spans
+from fdspec.measures import hysteresis
 from fdspec.units import G
 from tests.cubes import synthetic_cube, synthetic_history
+from tests.explored import own_motion
 
 SHAPE = (5, 4, 6)
 
@@ -133,7 +146,7 @@ def test_the_caption_names_the_record_really_used_and_the_frame(cube: xr.Dataset
     cube.attrs["parameters"] = '{"floor_mass": 20000.0, "damping_ratio": 0.05, "period": [0.1, 0.2]}'
     words = acceleration_caption(cube, "FHR1")
     used = "stand-in for the study's FHR1: Loma Prieta; PGA 0.41 g, the recorded motion times 0.993"
-    assert f"ground motion FHR1 ({used}). Frame: floor 20 000 kg, damping ratio 0.05." in words
+    assert f"ground motion FHR1 ({used}). Frame: floor 20\u00a0000\u00a0kg, damping ratio 0.05." in words
     figure = plot_acceleration(cube, "FHR1", caption=words)
     below = figure.texts[-1]
     assert below.get_text().replace("\n", " ") == words
@@ -290,18 +303,136 @@ def test_a_line_marks_the_pretension_of_the_smallest_acceleration(plot, cube: xr
         assert line.get_label() == BEST
 
 
-def test_maps_say_what_the_line_is(cube: xr.Dataset) -> None:
+def test_maps_say_what_line_and_hatching_are(cube: xr.Dataset) -> None:
     (legend,) = plot_acceleration_maps(cube, "FSR1").legends
-    assert [text.get_text() for text in legend.get_texts()] == [BEST]
+    assert [text.get_text() for text in legend.get_texts()] == [BEST, BAND]
+
+
+@BOTH
+def test_the_band_about_the_best_is_within_five_per_cent(plot, cube: xr.Dataset) -> None:
+    """A straight valley about 0.8 g: 5 % above it lie where the sides reach 0.84 g."""
+    cube = cube.isel(pretension=slice(0, 3)).assign_coords(
+        pretension=[10e3, 100e3, 1000e3], stiffness_ratio=RATIOS
+    )
+    cube["peak_acceleration"].values[:] = G * np.array([0.88, 0.80, 1.20])[:, None]
+    for axis in maps(plot(cube, "FSR1")):
+        (band,) = [one for one in axis.collections if one.get_label() == BAND]
+        heights = band.get_paths()[0].vertices[:, 1]
+        assert (heights.min(), heights.max()) == pytest.approx((55.0, 190.0))
+
+
+def test_a_wide_range_of_pretension_has_a_logarithmic_axis_with_the_surface_s_ticks(cube: xr.Dataset) -> None:
+    wide = cube.assign_coords(stiffness_ratio=RATIOS, pretension=[2e3, 20e3, 200e3, 1000e3])
+    for chosen, scale in ((wide, "log"), (wide.isel(pretension=slice(2, 4)), "linear")):
+        figure = plot_acceleration(chosen, "FSR1")
+        for chart, space in zip(maps(figure), surfaces(figure), strict=True):
+            assert chart.get_yscale() == scale
+            numbers = [text.get_text() for text in space.get_yticklabels()]
+            assert set(numbers) <= {f"{tick:g}" for tick in chart.get_yticks()}
+            assert set(space.get_xticks()) <= set(strips(chart)["free"].get_xticks())
+    figure = plot_acceleration(wide, "FSR1")
+    assert [text.get_text() for text in surfaces(figure)[0].get_yticklabels()] == [
+        "3",
+        "10",
+        "30",
+        "100",
+        "300",
+        "1000",
+    ]
+    assert list(maps(figure)[0].get_yticks()) == [3.0, 10.0, 30.0, 100.0, 300.0, 1000.0]
+
+
+def test_values_keep_off_the_line_of_the_best() -> None:
+    for axis in maps(plot_acceleration(smooth(), "FSR1")):
+        to_axes = axis.transData + axis.transAxes.inverted()
+        line = to_axes.transform(axis.get_lines()[0].get_xydata())
+        for text in axis.texts:
+            if "period" not in text.get_text():
+                apart = np.abs(line - to_axes.transform(text.get_position()))
+                assert not (apart < 0.05).all(axis=1).any()
+
+
+@pytest.mark.parametrize(("kind", "width"), [("maps", 180.0), ("surfaces", 180.0), ("maps", 88.0)])
+def test_print_has_its_width_and_letters_that_can_be_read(kind: str, width: float) -> None:
+    figure = plot_acceleration_print(smooth(), "FSR1", width=width, kind=kind)
+    assert figure.get_figwidth() * 25.4 == pytest.approx(width)
+    assert figure.get_suptitle() == ""
+    assert figure.dpi >= 300
+    assert len(surfaces(figure)) == (6 if kind == "surfaces" else 0)
+    assert len(maps(figure)) == (6 if kind == "maps" else 0)
+    told = [text.get_text() for text in figure.texts]
+    assert told == [
+        f"({letter}) SR = {ratio}"
+        for letter, ratio in zip("abcdef", ("0.5", "1", "2", "4", "8", "10"), strict=True)
+    ]
+    words = [text for text in figure.findobj(Text) if text.get_visible() and text.get_text().strip()]
+    lines = {f"{level:g}" for level in (maps(figure)[0].collections[0].levels if kind == "maps" else [])}
+    assert all(text.get_fontsize() >= 7.0 for text in words if text.get_text() not in lines)
+    figure.set_dpi(150)
+    assert not overlapping(figure)
+
+
+@pytest.mark.parametrize(
+    ("how", "said"),
+    [({"width": 20.0}, "width must be from 60 to 400 mm, got 20"), ({"kind": "pairs"}, "kind must be")],
+)
+def test_print_that_cannot_be(how, said: str) -> None:
+    with pytest.raises(InvalidInput, match=said):
+        plot_acceleration_print(smooth(), "FSR1", **how)
+
+
+def test_the_ensemble_draws_the_median_with_zero_marked_and_one_best() -> None:
+    study = smooth()
+    study["peak_acceleration"].values[1] *= 1.4
+    figure = plot_ensemble(study, caption=ensemble_caption(study))
+    charts = [axis for axis in figure.axes if axis.get_label() != "<colorbar>" and axis.texts]
+    assert len(charts) == 12
+    shares = [
+        study["peak_acceleration"].values[k] / study["elastic_acceleration"].values[k][None, None]
+        for k in range(2)
+    ]
+    mean = np.mean(shares, axis=0)
+    for k, axis in enumerate(charts[::2]):
+        line = axis.get_lines()[0]
+        best = study["pretension"].values[mean[k].argmin(axis=0)] / 1e3
+        assert line.get_ydata() == pytest.approx(best)
+        filled = axis.collections[0]
+        assert filled.levels[0] == -filled.levels[-1] == -100.0
+    with pytest.raises(InvalidInput, match="needs 2 records or more, the cube has 1"):
+        plot_ensemble(study.isel(record=[0]))
+    assert plot_ensemble(study, width=180.0).get_figwidth() * 25.4 == pytest.approx(180.0)
+
+
+def test_the_chart_is_the_same_for_any_mass_and_loudness() -> None:
+    """F / (m PGA) is what the equations know: a heavier floor under a louder ground draws the same lines."""
+    motion = own_motion()
+    lines = []
+    for mass, pga in ((20e3, 2.0), (50e3, 5.0)):
+        cube = fdspec.sweep(
+            motion.scaled_to_pga(pga),
+            period=[0.3, 0.8],
+            stiffness_ratio=[1.0, 4.0],
+            pretension=np.geomspace(0.02, 2.0, 5) * mass * pga / 0.5,
+            floor_mass=mass,
+            brace_mass=0.0025 * mass,
+        )
+        lines.append([line.get_xydata() for axis in plot_chart(cube).axes for line in axis.lines])
+    for one, other in zip(*lines, strict=True):
+        assert one == pytest.approx(other, rel=1e-9)
+    quiet = fdspec.sweep(
+        [motion, replace(motion.scaled(2.0), name="loud")],
+        period=0.3,
+        stiffness_ratio=1.0,
+        pretension=[1e4, 1e5],
+    )
+    with pytest.raises(InvalidInput, match="needs records of one PGA"):
+        plot_chart(quiet)
 
 
 def test_values_at_lines_keep_apart_and_off_the_edges() -> None:
     for axis in maps(plot_acceleration(smooth(), "FSR1")):
-        (x0, x1), (y0, y1) = axis.get_xlim(), axis.get_ylim()
         values = [text for text in axis.texts if "period" not in text.get_text()]
-        at = [
-            ((t.get_position()[0] - x0) / (x1 - x0), (t.get_position()[1] - y0) / (y1 - y0)) for t in values
-        ]
+        at = [axis.transAxes.inverted().transform(axis.transData.transform(t.get_position())) for t in values]
         assert all(0.05 < x < 0.95 and 0.05 < y < 0.95 for x, y in at)
         assert all(
             abs(a - c) >= 0.12 or abs(b - d) >= 0.12 for k, (a, b) in enumerate(at) for c, d in at[k + 1 :]
@@ -371,8 +502,9 @@ def test_history_draws_one_storey_in_readable_units(history: xr.Dataset) -> None
     assert np.allclose(displaced.lines[0].get_ydata(), one["displacement"].values * 1e3)
     assert np.allclose(displaced.lines[1].get_ydata(), one["brace_displacement"].values * 1e3)
     assert np.allclose(held.lines[0].get_ydata(), one["friction_force"].values / 1e3)
-    slip = (one["displacement"] - one["brace_displacement"]).values * 1e3
-    assert np.allclose(loop.lines[0].get_xdata(), slip)
+    corners = hysteresis(history, 2)
+    assert np.allclose(loop.lines[0].get_xdata(), corners["slip"].values * 1e3)
+    assert np.allclose(loop.lines[0].get_ydata(), corners["force"].values / 1e3)
     assert [axis.get_ylabel() for axis in (displaced, held, accelerated)] == [
         "displacement, mm",
         "friction force, kN",

@@ -16,6 +16,7 @@ from fdspec.figures import (
     shortest_stick,
 )
 from fdspec.figures.encoding import encode
+from fdspec.measures import hysteresis
 from fdspec.units import G
 from tests.cubes import synthetic_history
 
@@ -44,11 +45,10 @@ def test_hysteresis_has_a_loop_a_storey_with_the_energy_it_burned(history: xr.Da
     figure = plot_hysteresis(history)
     assert [axis.get_title() for axis in figure.axes] == ["storey 1: 2.5 kJ", "storey 2: 0.0125 kJ"]
     for axis, storey in zip(figure.axes, (1, 2), strict=True):
-        one = history.sel(storey=storey)
+        corners = hysteresis(history, storey)
         loop = axis.lines[0]
-        slip = one["displacement"].values - one["brace_displacement"].values
-        np.testing.assert_allclose(loop.get_xdata(), 1e3 * slip, rtol=1e-14)
-        np.testing.assert_allclose(loop.get_ydata(), one["friction_force"].values / 1e3, rtol=1e-14)
+        np.testing.assert_allclose(loop.get_xdata(), 1e3 * corners["slip"].values, rtol=1e-14)
+        np.testing.assert_allclose(loop.get_ydata(), corners["force"].values / 1e3, rtol=1e-14)
         assert axis.get_xlabel() == "slip, floor less brace, mm"
     assert figure.axes[0].get_ylabel() == "friction force, kN"
     assert [line.get_ydata()[0] for line in figure.axes[0].lines[1:]] == [-50.0, 50.0]
@@ -183,7 +183,7 @@ def test_each_method_is_drawn_over_the_first(history: xr.Dataset) -> None:
     other = history.isel(time=slice(None, None, 10)).copy(deep=True)
     other["brace_displacement"].values[3, 0] += 7.0  # m
     figure = plot_brace_displacements({"exact": history, "band": other}, end=0.5, caption="Words.")
-    exact, band = figure.axes
+    exact, band, error = figure.axes
     np.testing.assert_allclose(exact.lines[0].get_ydata(), 1e3 * history["brace_displacement"].sel(storey=1))
     behind, before = band.lines
     assert np.array_equal(behind.get_ydata(), exact.lines[0].get_ydata())
@@ -192,6 +192,12 @@ def test_each_method_is_drawn_over_the_first(history: xr.Dataset) -> None:
     most = np.abs(1e3 * history["brace_displacement"].sel(storey=1).values[:501]).max()
     assert exact.get_ylim() == band.get_ylim() == (pytest.approx(-1.25 * most), pytest.approx(1.25 * most))
     assert figure.get_supylabel() == "displacement of the brace, mm"
+    assert error.get_yscale() == "log"
+    apart = np.abs(before.get_ydata() - behind.get_ydata()[::10])
+    drawn = error.lines[0].get_ydata()
+    assert (np.diff(drawn) >= 0.0).all()
+    assert drawn[-1] == pytest.approx(apart.max())
+    assert len(plot_brace_displacements({"exact": history}).axes) == 1
     with pytest.raises(InvalidInput, match="histories must name one or more"):
         plot_brace_displacements({})
 

@@ -13,7 +13,7 @@ import pytest
 import xarray as xr
 
 import fdspec
-from fdspec.errors import DiskError, InvalidInput, StoreError
+from fdspec.errors import DiskError, StoreError
 from fdspec.runs import resumable
 from fdspec.runs.resumable import differences, identity_of, plan_blocks
 from fdspec.runs.sweep import COLUMNS

@@ -7,7 +7,7 @@ import pytest
 
 import fdspec
 from fdspec.measures import study_claims
-from fdspec.measures.claims import verdict_of_claim
+from fdspec.measures.claims import CLAIMS, verdict_of_claim
 from fdspec.model.grid import Grid
 from fdspec.runs.study import STUDY_RECORDS
 
@@ -34,10 +34,7 @@ def test_links_lead_somewhere() -> None:
 
 
 def test_what_it_says_of_the_study_is_what_the_claims_give() -> None:
-    rows = re.findall(
-        r"^\| (?:the|at|beyond) .* \| (.*) \|$", README.read_text(encoding="utf-8"), re.MULTILINE
-    )
-    said = [row for row in rows if row != "what comes out"]
+    rows = re.findall(r"^\| ([a-h]) \| .* \| (.*) \|$", README.read_text(encoding="utf-8"), re.MULTILINE)
     grid = Grid.study()
     cube = fdspec.sweep(
         [fdspec.load_record(name) for name in STUDY_RECORDS],
@@ -48,10 +45,26 @@ def test_what_it_says_of_the_study_is_what_the_claims_give() -> None:
         certify=False,
     )
     claims = study_claims(cube)
-    assert len(said) == 6
-    for letter, row in zip("abcdef", said, strict=True):
-        assert (
-            verdict_of_claim(claims, letter).removeprefix("holds ") == row.partition(":")[0].partition(",")[0]
-        )
+    assert [letter for letter, _ in rows] == list(CLAIMS)
+    said = dict(rows)
+    for letter, row in rows:
+        verdict = row.partition(":")[0].partition(",")[0]
+        assert verdict_of_claim(claims, letter).removeprefix("holds ") == verdict, letter
     assert int((claims.share.sel(part="a") == 1.0).sum()) == 6
-    assert "for six records" in said[0]
+    assert "for six records" in said["a"]
+    for part, letter in (("d3", "d"), ("d2", "d"), ("g1", "g"), ("g2", "g")):
+        share = 100.0 * claims.share.sel(part=part)
+        assert f"{int(share.min())} to {int(share.max())} %" in said[letter], part
+    verdicts = {part: str(claims.verdict_of_part.sel(part=part).item()) for part in ("h1", "h4")}
+    assert verdicts == {"h1": "holds", "h4": "does not hold"}
+
+
+def test_it_opens_with_what_it_answers_and_a_picture() -> None:
+    """A structural engineer gives it thirty seconds: a question, what it is, two pictures, two commands."""
+    text = README.read_text(encoding="utf-8")
+    opening = text[: text.index("## Two commands")]
+    assert "?" in opening.splitlines()[2]
+    assert len(opening.split()) < 190
+    assert len(re.findall(r"!\[[^\]]{40,}\]\(docs/images/\w+\.png\)", opening)) == 2
+    (code,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    assert len([line for line in code.splitlines() if line.strip()]) <= 10

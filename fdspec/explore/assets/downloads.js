@@ -1,6 +1,8 @@
 // Downloads: a picture with its title, and the numbers behind it.
 
 const PICTURE = { width: 1100, height: 700 };
+// Letters of a line of the title, at its size.
+const LETTERS = 125;
 
 function download(name, content, type) {
   const link = element("a");
@@ -17,12 +19,13 @@ function fileName(...parts) {
 // A figure made anew at one size, so that the file does not depend on the window.
 async function savePicture(picture, format) {
   const { data, layout: drawn } = picture.plot();
-  const lines = [picture.title(), picture.origin()].filter(Boolean).map(plain);
+  const lines = [picture.title(), picture.origin()].filter(Boolean).flatMap((text) => folded(text, LETTERS).split("<br>")).map(plain);
+  const legend = drawn.showlegend ? 26 : 0;
   const figure = {
     data,
     layout: {
       ...drawn, ...PICTURE, title: { text: lines.join("<br>"), font: { ...FONT, size: 14 }, x: 0.02, xanchor: "left", y: 0.985, yanchor: "top" },
-      margin: { l: 70, r: 40, t: 88, b: 55 },
+      margin: { l: 84, r: 60, t: 28 + 19 * lines.length + legend, b: 60 },
     },
   };
   const address = await Plotly.toImage(figure, { format, ...PICTURE, scale: format === "png" ? 2 : 1 });

@@ -2,7 +2,9 @@
 
 const running = new Map();
 
+// Where the point is one of the cube's its positions are asked for, else its values.
 function historyAddress(s, k, file) {
+  if (s.free) return `point?${new URLSearchParams({ record: k, ...s.free })}`;
   return `${file}?record=${k}&stiffness_ratio=${s.ratio}&pretension=${s.force}&period=${s.period}`;
 }
 

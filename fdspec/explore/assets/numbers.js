@@ -50,6 +50,22 @@ function recordNumbers(k) {
   return records.get(k);
 }
 
+// The numbers that the page has a field for; those of the frame hold for the whole cube.
+const FIELDS = [
+  { name: "period", title: "period", unit: "s" }, { name: "stiffness_ratio", title: "stiffness ratio", unit: "" }, { name: "pretension", title: "pretension", unit: "kN" },
+  ...["floor_mass", "brace_mass", "damping_ratio", "friction_coefficient"].flatMap((name) => {
+    const told = about.frame.find((one) => one.name === name);
+    return told ? [{ name, title: told.title, unit: told.unit, value: told.value, own: true }] : [];
+  }),
+];
+
+// Values of the point: the cube's at the sliders, or those that were typed.
+function pointOf(s) {
+  const here = { period: AXES.period[s.period], stiffness_ratio: AXES.stiffness_ratio[s.ratio], pretension: s.force === null ? NaN : AXES.pretension[s.force] };
+  for (const field of FIELDS) if (field.own) here[field.name] = field.value;
+  return { ...here, ...(s.free || {}) };
+}
+
 function cell(values, ratio, force, period) {
   return values[(ratio * SIZES.force + force) * SIZES.period + period];
 }

@@ -1,32 +1,70 @@
 // The page: controls, cards of pictures, and what follows from what.
 
 const byId = (id) => document.getElementById(id);
-const control = Object.fromEntries(["record", "compare", "index", "ratio", "period", "force", "turn", "best", "line"].map((id) => [id, byId(id)]));
+const control = Object.fromEntries(["record", "compare", "index", "ratio", "period", "force", "best", "line"].map((id) => [id, byId(id)]));
 
-const state = fromAddress({
-  record: 0, compare: -1, index: 0, turn: -55,
+const USUAL = {
+  record: 0, compare: -1, index: 0, turn: -55, strong: false, free: null,
   ratio: nearest(AXES.stiffness_ratio, 4), period: nearest(AXES.period, 0.5), force: null,
-});
+};
+const state = fromAddress();
 const cards = new Map();
 const histories = new Map();
 
-// ---- state in the address, so that a view can be kept and sent
+// ---- state in the address, by names and values, so that a view can be kept, sent, and gone back to
 
-function fromAddress(usual) {
-  const told = new URLSearchParams(location.hash.slice(1));
-  const last = { record: about.records.length, compare: about.records.length, index: about.indices.length, ratio: SIZES.ratio, period: SIZES.period, force: SIZES.force };
-  for (const [name, count] of Object.entries(last)) {
-    const value = Number(told.get(name) ?? NaN);
-    if (Number.isInteger(value) && value >= 0 && value < count) usual[name] = value;
+function fromAddress() {
+  const told = new URLSearchParams(location.hash.slice(1)), found = { ...USUAL };
+  const names = about.records.map((r) => r.name);
+  const place = (list, name) => list.indexOf(told.get(name));
+  if (place(names, "record") >= 0) found.record = place(names, "record");
+  if (place(names, "compare") >= 0) found.compare = place(names, "compare");
+  if (place(about.indices.map((index) => index.name), "index") >= 0) found.index = place(about.indices.map((index) => index.name), "index");
+  const free = {};
+  for (const [key, name] of [["period", "period"], ["ratio", "stiffness_ratio"], ["force", "pretension"]]) {
+    const value = numberOf(told.get(name));
+    if (value === null) continue;
+    found[key] = nearest(AXES[name], value);
+    if (Math.abs(AXES[name][found[key]] - value) > 1e-9 * Math.abs(value)) free[name] = value;
   }
-  if (usual.compare === usual.record) usual.compare = -1;
-  return usual;
+  for (const field of FIELDS.filter((one) => one.own)) {
+    const value = numberOf(told.get(field.name));
+    if (value !== null && value !== field.value) free[field.name] = value;
+  }
+  if (found.compare === found.record) found.compare = -1;
+  if (about.served && Object.keys(free).length) found.free = { ...pointOf({ ...found, free: null, force: found.force ?? 0 }), ...free };
+  return found;
 }
 
-function toAddress() {
-  const told = Object.entries(state).filter(([name, value]) => name !== "turn" && value >= 0);
-  history.replaceState(null, "", "#" + new URLSearchParams(told));
+function numberOf(text) {
+  const value = text === null || text.trim() === "" ? NaN : Number(text);
+  return Number.isFinite(value) ? value : null;
 }
+
+function addressOf(s) {
+  const at = pointOf(s), told = { record: about.records[s.record].name, index: about.indices[s.index].name };
+  if (s.compare >= 0) told.compare = about.records[s.compare].name;
+  for (const name of ["stiffness_ratio", "period", "pretension"]) told[name] = at[name];
+  for (const field of FIELDS) if (field.own && s.free && s.free[field.name] !== field.value) told[field.name] = s.free[field.name];
+  return "#" + new URLSearchParams(told);
+}
+
+// A view that was chosen gets a place of its own behind the back button; a slider that is dragged does not.
+let chosen = false;
+function toAddress() {
+  const address = addressOf(state);
+  if (address === location.hash) return;
+  if (chosen && location.hash) history.pushState(null, "", address);
+  else history.replaceState(null, "", address);
+  chosen = false;
+}
+
+// The back button, and a link that is pasted into an open page.
+addEventListener("popstate", () => {
+  if (location.hash === addressOf(state)) return;
+  Object.assign(state, fromAddress(), { turn: state.turn, strong: state.strong });
+  show();
+});
 
 // ---- cards
 
@@ -63,7 +101,7 @@ function card(picture) {
   button("CSV", "Download the numbers as CSV", () => saveNumbers(made));
   if (picture.netcdf && about.served) button("netCDF", "Download as netCDF", () => picture.netcdf());
   head.append(title, save);
-  figure.append(head, plot, words);
+  figure.append(head, plot, ...(picture.below ? picture.below() : []), words);
   byId(picture.place).append(figure);
   cards.set(picture.id, made);
   return made;
@@ -79,7 +117,65 @@ async function draw(picture) {
   const first = made.drawn === null;
   made.drawn = true;
   await Plotly.react(made.plotted, data, drawn, CONFIG);
-  if (first && made.click) made.plotted.on("plotly_click", (event) => made.click(event.points[0]));
+  if (first) connectPlot(made);
+}
+
+// A click is where the button goes up where it went down: a surface that was turned was not clicked on.
+const DRAG = 5;
+function connectPlot(made) {
+  let down = null, moved = false, pending = null;
+  made.plotted.addEventListener("pointerdown", (event) => { down = [event.clientX, event.clientY]; moved = false; pending = null; }, true);
+  addEventListener("pointermove", (event) => {
+    if (down && event.buttons && Math.hypot(event.clientX - down[0], event.clientY - down[1]) > DRAG) moved = true;
+  }, true);
+  // A surface tells of a click while the button is still down.
+  addEventListener("pointerup", () => {
+    const point = pending;
+    down = pending = null;
+    if (point && !moved) made.click(point);
+  }, true);
+  if (made.click) made.plotted.on("plotly_click", (event) => {
+    if (down) pending = event.points[0];
+    else if (!moved) made.click(event.points[0]);
+  });
+  made.plotted.on("plotly_relayout", (change) => linked(made, change));
+}
+
+// Two maps show the same stretch, two surfaces the same side, and the slider of the turn follows.
+let linking = false;
+async function linked(made, change) {
+  if (linking) return;
+  linking = true;
+  try {
+    const kind = made.id.split("-")[0];
+    const others = [...cards.values()].filter((one) => one !== made && one.id.split("-")[0] === kind);
+    const kept = Object.fromEntries(Object.entries(change).filter(([name]) => /^[xy]axis\.(range|autorange)/.test(name)));
+    if (kind === "map" && Object.keys(kept).length) await Promise.all(others.map((one) => Plotly.relayout(one.plotted, kept)));
+    const camera = change["scene.camera"];
+    if (kind === "surface" && camera) {
+      state.turn = Math.round((Math.atan2(camera.eye.y, camera.eye.x) * 180) / Math.PI);
+      turnSlider();
+      await Promise.all(others.map((one) => Plotly.relayout(one.plotted, { "scene.camera": camera })));
+    }
+  } finally {
+    linking = false;
+  }
+}
+
+function turnSlider() {
+  for (const slider of document.querySelectorAll("input.turn")) {
+    slider.value = String(state.turn);
+    slider.setAttribute("aria-valuetext", `${state.turn}\u00a0°`);
+  }
+}
+
+async function turnTo(degrees) {
+  state.turn = degrees;
+  turnSlider();
+  await painted();
+  linking = true;
+  for (const [id, made] of cards) if (id.startsWith("surface")) await Plotly.relayout(made.plotted, { "scene.camera.eye": eye(state.turn) });
+  linking = false;
 }
 
 function discard(id) {
@@ -102,6 +198,8 @@ async function shownRecords() {
 }
 
 function movePoint(period, pretension) {
+  state.free = null;
+  chosen = true;
   state.period = nearest(AXES.period, period);
   if (pretension !== null) state.force = nearest(AXES.pretension, pretension);
   show();
@@ -121,7 +219,22 @@ function mapPicture(n, k, numbers, scale, kind) {
     file: () => fileName(name, index.name, `SR${AXES.stiffness_ratio[state.ratio]}`, kind),
     numbers: () => mapNumbers(state, index, numbers),
     click: (point) => movePoint(point.x, point.y),
+    below: kind === "map" ? undefined : () => [turning(n)],
   };
+}
+
+// The slider that turns a surface stands below it.
+function turning(n) {
+  const field = element("div"), label = element("label", "Turn"), slider = element("input");
+  field.className = "turning";
+  slider.id = n ? "turn-1" : "turn";
+  label.htmlFor = slider.id;
+  Object.assign(slider, { type: "range", className: "turn", min: "-180", max: "180", step: "5" });
+  slider.value = String(state.turn);
+  slider.setAttribute("aria-valuetext", `${state.turn}\u00a0°`);
+  slider.addEventListener("input", () => turnTo(Number(slider.value)));
+  field.append(label, slider);
+  return field;
 }
 
 function curvePicture(kind, shown) {
@@ -155,18 +268,63 @@ function historyPicture(n, k, found) {
   const name = about.records[k].name, at = { ...state };
   return {
     id: `history-${n}`, place: "histories", look: "history",
-    plot: () => historyPlot(found, byId("histories").clientWidth < 700),
+    plot: () => historyPlot(found, byId("histories").clientWidth < 700, state.strong ? strongMotion(found.arrays) : null),
     title: () => `History: ${name}, ${pointWords(at)}`,
-    words: () => [element("div", historyWords(found)), ...(found.notice ? [notice(found.notice)] : [])],
+    words: () => [element("div", `${historyWords(found)} Choose the bare frame in the legend to lay it under the floor.`), ...(found.notice ? [notice(found.notice)] : [])],
     origin: () => originWords(k),
-    file: () => fileName(name, "history", `T${AXES.period[at.period]}`, `SR${AXES.stiffness_ratio[at.ratio]}`, `${AXES.pretension[at.force]}kN`),
+    file: () => { const p = pointOf(at); return fileName(name, "history", `T${p.period}`, `SR${p.stiffness_ratio}`, `${p.pretension}kN`); },
     numbers: () => historyNumbers(found),
     netcdf: async () => {
       const now = cards.get(`history-${n}`);
+      if (now.at.free) throw new Error("A point between the cube's has no netCDF here; fdspec simulate writes it.");
       download(`${now.file()}.nc`, await ask(historyAddress(now.at, now.k, "history.nc")), "application/x-netcdf");
     },
     at, k,
   };
+}
+
+function energyPicture(n, k, found) {
+  const name = about.records[k].name, at = { ...state };
+  return {
+    id: `energy-${n}`, place: "curves", look: "curve",
+    plot: () => energyPlot(found),
+    title: () => `Energy: ${name}, ${pointWords(at)}`,
+    words: () => {
+      const last = (of) => found.arrays[of].at(-1);
+      return [element("div", `Of ${written(last("input_energy"), "kJ")} that the ground put in, friction took ${written(last("friction_energy"), "kJ")} and viscous damping ${written(last("viscous_energy"), "kJ")}.`)];
+    },
+    origin: () => originWords(k),
+    file: () => fileName(name, "energy", `T${pointOf(at).period}`),
+    numbers: () => ({
+      heads: ["time_s", ...ENERGIES.map(([of]) => `${of}_kJ`), "input_energy_kJ"],
+      rows: Array.from(found.arrays.time, (t, i) => [t, ...ENERGIES.map(([of]) => found.arrays[of][i]), found.arrays.input_energy[i]]),
+    }),
+  };
+}
+
+function allPicture(everything) {
+  const index = chosenIndex();
+  return {
+    id: "all-records", place: "curves", look: "curve",
+    plot: () => allPlot(state, index, everything),
+    title: () => `${index.title} over pretension: all ${everything.length} records, from ${everything[0].name}, period ${written(AXES.period[state.period], "s")}, stiffness ratio ${written(AXES.stiffness_ratio[state.ratio])}`,
+    words: () => [element("div", allWords(state, index, everything))],
+    origin: () => `Records: ${everything.map(({ name }) => name).join(", ")}`,
+    file: () => fileName("all", index.name, "over-pretension"),
+    numbers: () => ({
+      heads: ["pretension_kN", ...everything.map(({ name }) => `${name}_${named(index)}`)],
+      rows: AXES.pretension.map((force, f) => [force, ...everything.map(({ numbers }) => cell(numbers[index.name], state.ratio, f, state.period))]),
+    }),
+    click: (point) => movePoint(AXES.period[state.period], point.x),
+  };
+}
+
+// More are too many to tell apart, and to load.
+const MANY = 60;
+async function showAll(turn) {
+  if (about.records.length < 2 || about.records.length > MANY) return;
+  const everything = await Promise.all(about.records.map(async (r, k) => ({ k, name: r.name, numbers: await recordNumbers(k) })));
+  if (turn === asked) await draw(allPicture(everything));
 }
 
 function notice(text) {
@@ -197,7 +355,7 @@ async function show(delay = 0) {
     toAddress();
     const index = chosenIndex();
     const scale = scaleOf(shown.map(({ numbers }) => numbers[index.name]), index.colours);
-    if (shown.length === 1) ["map-1", "surface-1", "history-1"].forEach(discard);
+    if (shown.length === 1) ["map-1", "surface-1", "history-1", "energy-1"].forEach(discard);
     const maps = (kind) => shown.map(({ k, numbers }, n) => () => draw(mapPicture(n, k, numbers, scale, kind)));
     const curves = ["over-pretension", ...(index.best ? ["best-pretension"] : [])].map((kind) => () => draw(curvePicture(kind, shown)));
     if (!index.best) discard("best-pretension");
@@ -219,6 +377,7 @@ async function show(delay = 0) {
     if (!first) for (const step of curves) await step();
     orderCards();
     tables(shown);
+    await showAll(turn);
     await coming;
     orderCards();
     // A record that has no history has no search either, and that was said.
@@ -233,7 +392,10 @@ async function show(delay = 0) {
 }
 
 // The second record's map stands under the first one's, each beside its surface; histories likewise, whichever came first.
-const ORDER = { maps: ["map-0", "surface-0", "map-1", "surface-1"], histories: ["history-0", "history-1"] };
+const ORDER = {
+  maps: ["map-0", "surface-0", "map-1", "surface-1"], histories: ["history-0", "history-1"],
+  curves: ["over-pretension", "best-pretension", "all-records", "energy-0", "energy-1"],
+};
 function orderCards() {
   for (const [place, ids] of Object.entries(ORDER)) {
     const wanted = ids.filter((id) => cards.has(id)).map((id) => cards.get(id).figure);
@@ -254,11 +416,13 @@ async function runHistories(shown) {
       if (found === null) return;
       histories.set(n, found);
       await draw(historyPicture(n, k, found));
+      await draw(energyPicture(n, k, found));
       cards.get(`history-${n}`).plotted.classList.remove("wait");
       tables(shown);
     } catch (error) {
       histories.delete(n);
       discard(`history-${n}`);
+      discard(`energy-${n}`);
       problems.push(error.message);
     }
   }));
@@ -317,9 +481,13 @@ function controlsFromState() {
     ratio: written(AXES.stiffness_ratio[state.ratio]),
     period: written(AXES.period[state.period], "s"),
     force: state.force === null ? "" : written(AXES.pretension[state.force], "kN"),
-    turn: `${state.turn}\u00a0°`,
   };
-  for (const name of ["record", "compare", "index", "ratio", "period", "force", "turn"]) {
+  const at = pointOf(state);
+  for (const field of FIELDS) {
+    const box = byId(`field-${field.name}`);
+    if (box && document.activeElement !== box) box.value = Number.isFinite(at[field.name]) ? String(Number(at[field.name].toPrecision(6))) : "";
+  }
+  for (const name of ["record", "compare", "index", "ratio", "period", "force"]) {
     const value = String(state[name] ?? 0);
     if (control[name].value !== value) control[name].value = value;
     if (name in told) {
@@ -357,6 +525,15 @@ async function searchLine() {
 }
 
 async function chooseBest() {
+  chosen = true;
+  state.free = null;
+  const told = searchedAt(state, state.record, state.period);
+  if (told && Number.isFinite(told.value)) {
+    state.force = nearest(AXES.pretension, told.pretension);
+    state.free = { ...pointOf(state), pretension: told.pretension };
+    show();
+    return;
+  }
   const place = gridBest(state, chosenIndex(), await recordNumbers(state.record), state.period);
   if (place !== null) state.force = place;
   show();
@@ -364,6 +541,7 @@ async function chooseBest() {
 
 function connect() {
   byId("name").textContent = about.name;
+  byId("frame").textContent = about.frame.map((one) => `${one.title} ${written(one.value, one.unit)}`).join(", ");
   byId("origin").textContent = `${about.records.length} records, ${SIZES.ratio} stiffness ratios, ${SIZES.force} pretensions, ${SIZES.period} periods. ${about.title}.`;
   options(control.record, about.records.map((r) => r.name));
   options(control.compare, ["no other", ...about.records.map((r) => r.name)], -1);
@@ -374,18 +552,19 @@ function connect() {
   }
   const follow = (name, event, delay) => control[name].addEventListener(event, () => {
     state[name] = Number(control[name].value);
+    if (name !== "record" && name !== "compare" && name !== "index") state.free = null;
+    else chosen = true;
     if (state.compare === state.record) state.compare = -1;
     show(delay);
   });
   for (const name of ["record", "compare", "index"]) follow(name, "change", 0);
   // A slider being dragged asks for the history when it rests.
   for (const name of ["ratio", "period", "force"]) follow(name, "input", 120);
-  control.turn.addEventListener("input", async () => {
-    state.turn = Number(control.turn.value);
-    controlsFromState();
-    await painted();
-    for (const [id, made] of cards) if (id.startsWith("surface")) Plotly.relayout(made.plotted, { "scene.camera.eye": eye(state.turn) });
-  });
+  if (about.served) fields();
+  byId("link").addEventListener("click", copyLink);
+  byId("theme").addEventListener("click", () => theme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
+  byId("strong").addEventListener("change", () => { state.strong = byId("strong").checked; redraw("history"); });
+  byId("strong").parentElement.hidden = !about.served;
   control.best.addEventListener("click", chooseBest);
   control.line.addEventListener("click", searchLine);
   control.line.hidden = !about.served;
@@ -395,5 +574,64 @@ function connect() {
   }
 }
 
+// Numbers of any point, not the cube's alone: histories are computed there.
+function fields() {
+  const place = byId("fields");
+  for (const field of FIELDS) {
+    const row = element("div"), label = element("label", field.title[0].toUpperCase() + field.title.slice(1) + (field.unit ? `, ${field.unit}` : "")), box = element("input");
+    box.id = `field-${field.name}`;
+    box.inputMode = "decimal";
+    box.autocomplete = "off";
+    label.htmlFor = box.id;
+    box.addEventListener("change", () => typed(field, box));
+    row.append(label, box);
+    place.append(row);
+  }
+  byId("anywhere").hidden = false;
+}
+
+function typed(field, box) {
+  const value = numberOf(box.value.replace(",", "."));
+  if (value === null) { complain(new Error(`${field.title} must be a number, not ${box.value || "nothing"}.`)); return; }
+  byId("status").textContent = "";
+  chosen = true;
+  const at = { ...pointOf(state), [field.name]: value };
+  state.period = nearest(AXES.period, at.period);
+  state.ratio = nearest(AXES.stiffness_ratio, at.stiffness_ratio);
+  state.force = nearest(AXES.pretension, at.pretension);
+  const cubes = pointOf({ ...state, free: null });
+  state.free = FIELDS.every((one) => Math.abs(at[one.name] - cubes[one.name]) <= 1e-9 * Math.abs(cubes[one.name])) ? null : at;
+  show();
+}
+
+async function copyLink() {
+  const button = byId("link");
+  try {
+    await navigator.clipboard.writeText(location.href);
+    button.textContent = "Copied";
+  } catch {
+    button.textContent = "See the address bar";
+  }
+  setTimeout(() => { button.textContent = "Copy link"; }, 2000);
+}
+
+async function redraw(kind) {
+  for (const [id, made] of cards) if (!kind || id.startsWith(kind)) await draw(made);
+}
+
+// Light or dark, as the system has it until the reader says otherwise.
+function theme(name) {
+  document.documentElement.dataset.theme = name;
+  setLook(name === "dark" ? DARK : LIGHT);
+  byId("theme").textContent = name === "dark" ? "Light" : "Dark";
+  redraw().catch(complain);
+}
+
+// On paper pictures are as wide as the page, not as the window.
+const PAPER = 660;
+addEventListener("beforeprint", () => { for (const made of cards.values()) Plotly.relayout(made.plotted, { width: PAPER, autosize: false }); });
+addEventListener("afterprint", () => { for (const made of cards.values()) Plotly.relayout(made.plotted, { width: null, autosize: true }); });
+
+theme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
 connect();
 show();

@@ -3,12 +3,29 @@
 // Perceptually even, and safe for colour-blind eyes and in grey print.
 const EVEN = "Viridis";
 // Of Okabe and Ito's palette; the second record differs by its dashes and marks too.
-const RECORD_LINES = [
-  { color: "#0072B2", dash: "solid", symbol: "circle" },
-  { color: "#D55E00", dash: "dash", symbol: "square" },
-];
-const FLOOR = "#0072B2", BRACE = "#D55E00", GROUND = "#5c5c5c", LIMIT = "#4a5866";
-const FONT = { family: 'system-ui, "Segoe UI", "DejaVu Sans", sans-serif', size: 12, color: "#1b2733" };
+const FAMILY = 'system-ui, "Segoe UI", "DejaVu Sans", sans-serif';
+// Colours of the light and of the dark page; lines reach a contrast of 3 on their ground, letters 4.5.
+const LIGHT = {
+  lines: ["#0072B2", "#D55E00"], ground: "#5c5c5c", limit: "#4a5866", ink: "#1b2733", paper: "#ffffff", grid: "#e3e8ec",
+  space: "#f4f6f8", spaceGrid: "#c9d1d9", grey: "#aab3bd", median: "#1b2733", high: "#007a5a", worst: "#B03A00",
+};
+const DARK = {
+  lines: ["#56B4E9", "#F0A04B"], ground: "#aab3bd", limit: "#aab3bd", ink: "#e8edf2", paper: "#1a222b", grid: "#34404c",
+  space: "#222c36", spaceGrid: "#4a5866", grey: "#6f7c89", median: "#e8edf2", high: "#2fc79a", worst: "#F0A04B",
+};
+let LOOK = LIGHT, FONT, RECORD_LINES, FLOOR, BRACE, GROUND, LIMIT;
+function setLook(look) {
+  LOOK = look;
+  FONT = { family: FAMILY, size: 12, color: look.ink };
+  RECORD_LINES = [
+    { color: look.lines[0], dash: "solid", symbol: "circle" },
+    { color: look.lines[1], dash: "dash", symbol: "square" },
+  ];
+  [FLOOR, BRACE] = look.lines;
+  GROUND = look.ground;
+  LIMIT = look.limit;
+}
+setLook(LIGHT);
 // No buttons over the pictures, which keys do not reach: the page has its own. No zoom by dragging where a
 // finger drags to scroll.
 const TOUCH = matchMedia("(pointer: coarse)").matches;
@@ -16,13 +33,15 @@ const CONFIG = { plotGlPixelRatio: Math.min(window.devicePixelRatio, 2), display
 
 function layout(more) {
   return {
-    font: FONT, paper_bgcolor: "#fff", plot_bgcolor: "#fff", showlegend: false, uirevision: "kept",
-    dragmode: TOUCH ? false : "zoom", margin: { l: 58, r: 12, t: 8, b: 42 }, hoverlabel: { font: FONT }, ...more,
+    font: FONT, paper_bgcolor: LOOK.paper, plot_bgcolor: LOOK.paper, showlegend: false, uirevision: "kept",
+    dragmode: TOUCH ? false : "zoom", margin: { l: 58, r: 12, t: 8, b: 42 },
+    // Of the page's own colours: those of the marks would carry no letters that can be read.
+    hoverlabel: { font: FONT, bgcolor: LOOK.paper, bordercolor: LOOK.limit }, ...more,
   };
 }
 
 function axis(title, more) {
-  return { title: { text: title, standoff: 6 }, gridcolor: "#e3e8ec", zeroline: false, ticks: "outside", ticklen: 3, ...more };
+  return { title: { text: title, standoff: 6 }, gridcolor: LOOK.grid, zeroline: false, ticks: "outside", ticklen: 3, ...more };
 }
 
 // A long title in lines that fit the height of a picture.
@@ -40,8 +59,8 @@ function ends(values) {
 }
 
 function pointMark(s, index, numbers) {
-  const z = cell(numbers[index.name], s.ratio, s.force, s.period);
-  return { x: [AXES.period[s.period]], y: [AXES.pretension[s.force]], z: [Number.isFinite(z) ? z : null] };
+  const z = cell(numbers[index.name], s.ratio, s.force, s.period), at = pointOf(s);
+  return { x: [at.period], y: [at.pretension], z: [Number.isFinite(z) ? z : null] };
 }
 
 function contourPlot(s, index, numbers, scale, best) {
@@ -94,7 +113,7 @@ function surfacePlot(s, index, numbers, scale, best) {
       marker: { symbol: "x", color: "#D55E00", size: 5 },
     },
   ];
-  const side = (title, more) => ({ title: { text: title, font: { ...FONT, size: 11 } }, tickfont: { ...FONT, size: 10 }, gridcolor: "#c9d1d9", showspikes: false, backgroundcolor: "#f4f6f8", showbackground: true, ...more });
+  const side = (title, more) => ({ title: { text: title, font: { ...FONT, size: 11 } }, tickfont: { ...FONT, size: 10 }, gridcolor: LOOK.spaceGrid, showspikes: false, backgroundcolor: LOOK.space, showbackground: true, ...more });
   return {
     data,
     layout: layout({
@@ -145,7 +164,7 @@ function slicePlot(s, index, shown) {
     layout: layout({
       showlegend: true, legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0 }, margin: { l: 58, r: 12, t: 30, b: 42 },
       xaxis: axis("pretension, kN"), yaxis: axis(folded(`${index.title}${unitOf(index)}`), { rangemode: "tozero", automargin: true }),
-      shapes: [...bands, { type: "line", x0: AXES.pretension[s.force], x1: AXES.pretension[s.force], y0: 0, y1: 1, yref: "paper", line: { color: LIMIT, width: 1, dash: "dot" } }],
+      shapes: [...bands, { type: "line", x0: pointOf(s).pretension, x1: pointOf(s).pretension, y0: 0, y1: 1, yref: "paper", line: { color: LIMIT, width: 1, dash: "dot" } }],
     }),
   };
 }
@@ -167,21 +186,25 @@ function bestPlot(s, index, shown) {
       xaxis: axis("period without brace, s", { anchor: "y2" }),
       yaxis: axis("best pretension, kN", { domain: [0.54, 1], rangemode: "tozero" }),
       yaxis2: axis(`its index${unitOf(index)}`, { domain: [0, 0.46], rangemode: "tozero" }),
-      shapes: [{ type: "line", x0: AXES.period[s.period], x1: AXES.period[s.period], y0: 0, y1: 1, yref: "paper", line: { color: LIMIT, width: 1, dash: "dot" } }],
+      shapes: [{ type: "line", x0: pointOf(s).period, x1: pointOf(s).period, y0: 0, y1: 1, yref: "paper", line: { color: LIMIT, width: 1, dash: "dot" } }],
     }),
   };
 }
 
-function historyPlot(history, narrow) {
-  const { time, displacement, brace_displacement, friction_force, acceleration, ground_acceleration, loop_slip, loop_force } = history.arrays;
-  const line = (name, x, y, color, more) => ({ type: "scatter", mode: "lines", name, x, y, line: { color, width: 1.2 }, hovertemplate: `%{x:.4g}, %{y:.4g}<extra>${name}</extra>`, ...more });
+function historyPlot(history, narrow, span) {
+  const { time, displacement, brace_displacement, bare_displacement, friction_force, acceleration, ground_acceleration, loop_slip, loop_force } = history.arrays;
+  const line = (name, unit, x, y, color, more) => ({
+    type: "scatter", mode: "lines", name, x, y, line: { color, width: 1.2 },
+    hovertemplate: `%{x:.4g} s, %{y:.4g} ${unit}<extra>${name}</extra>`, ...more,
+  });
   const data = [
-    line("floor", time, displacement, FLOOR),
-    line("brace", time, brace_displacement, BRACE, { line: { color: BRACE, width: 1, dash: "dot" } }),
-    line("friction", time, friction_force, FLOOR, { yaxis: "y2", showlegend: false }),
-    line("floor, absolute", time, acceleration, FLOOR, { yaxis: "y3", showlegend: false }),
-    line("ground", time, ground_acceleration, GROUND, { yaxis: "y3", line: { color: GROUND, width: 0.8 } }),
-    line("loop", loop_slip, loop_force, FLOOR, { xaxis: "x2", yaxis: "y4", showlegend: false }),
+    line("floor", "mm", time, displacement, FLOOR),
+    line("brace", "mm", time, brace_displacement, BRACE, { line: { color: BRACE, width: 1, dash: "dot" } }),
+    line("friction", "kN", time, friction_force, FLOOR, { yaxis: "y2", showlegend: false }),
+    line("floor, absolute", "g", time, acceleration, FLOOR, { yaxis: "y3", showlegend: false }),
+    line("ground", "g", time, ground_acceleration, GROUND, { yaxis: "y3", line: { color: GROUND, width: 0.8 } }),
+    line("loop", "kN", loop_slip, loop_force, FLOOR, { xaxis: "x2", yaxis: "y4", showlegend: false, hovertemplate: "%{x:.4g} mm, %{y:.4g} kN<extra>loop</extra>" }),
+    line("bare frame", "mm", time.subarray(0, bare_displacement.length), bare_displacement, LOOK.grey, { line: { color: LOOK.grey, width: 1 }, visible: "legendonly" }),
   ];
   const rows = narrow ? [[0.83, 1], [0.615, 0.785], [0.4, 0.57]] : [[0.7, 1], [0.36, 0.64], [0, 0.3]];
   const force = history.slip_force;
@@ -191,11 +214,73 @@ function historyPlot(history, narrow) {
     data,
     layout: layout({
       showlegend: true, legend: { orientation: "h", y: 1.01, yanchor: "bottom", x: 0 }, margin: { l: 58, r: 12, t: 26, b: 40 },
-      xaxis: axis("time, s", { domain: narrow ? [0, 1] : [0, 0.62], anchor: "y3" }),
+      xaxis: axis("time, s", { domain: narrow ? [0, 1] : [0, 0.62], anchor: "y3", ...(span ? { range: span } : {}) }),
       yaxis: axis("displacement,<br>mm", { domain: rows[0] }), yaxis2: axis("friction,<br>kN", { domain: rows[1] }), yaxis3: axis("acceleration,<br>g", { domain: rows[2] }),
       xaxis2: axis("slip, floor less brace, mm", { domain: narrow ? [0, 1] : [0.71, 1], anchor: "y4" }),
       yaxis4: axis("friction, kN", { domain: narrow ? [0, 0.3] : [0, 1], anchor: "x2" }),
-      shapes: limits,
+      shapes: limits, uirevision: span ? `kept ${span}` : "kept",
+    }),
+  };
+}
+
+// From when 5 % of the ground's squared acceleration has come to when 95 % has: the strong motion.
+function strongMotion({ time, ground_acceleration }) {
+  let total = 0;
+  const sums = Array.from(ground_acceleration, (a) => (total += a * a));
+  const at = (share) => time[Math.max(0, sums.findIndex((sum) => sum >= share * total))];
+  return total > 0 ? [at(0.05), at(0.95)] : null;
+}
+
+const ENERGIES = [
+  ["friction_energy", "friction", "#0072B2"], ["viscous_energy", "viscous damping", "#56B4E9"],
+  ["strain_energy", "strain", "#E69F00"], ["kinetic_energy", "motion", "#D55E00"],
+];
+
+// Where the energy goes: the terms stacked, and the input, which lies on their top.
+function energyPlot(history) {
+  const { time } = history.arrays;
+  const data = ENERGIES.map(([name, title, color]) => ({
+    type: "scatter", mode: "lines", name: title, x: time, y: history.arrays[name], stackgroup: "energy", line: { width: 0, color }, fillcolor: color,
+    hovertemplate: `%{x:.4g} s: %{y:.4g} kJ<extra>${title}</extra>`,
+  }));
+  data.push({ type: "scatter", mode: "lines", name: "input", x: time, y: history.arrays.input_energy, line: { color: LOOK.ink, width: 1.4 }, hovertemplate: "%{x:.4g} s: %{y:.4g} kJ<extra>input</extra>" });
+  return {
+    data,
+    layout: layout({
+      showlegend: true, legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0 }, margin: { l: 58, r: 12, t: 30, b: 42 },
+      xaxis: axis("time, s"), yaxis: axis("energy, kJ", { rangemode: "tozero" }),
+    }),
+  };
+}
+
+// What many say together, as fdspec.measures.ensemble does: median, 84th percentile (linear between members), worst.
+function quantile(values, share) {
+  const sorted = [...values].sort((a, b) => a - b), at = share * (sorted.length - 1), low = Math.floor(at);
+  return low + 1 < sorted.length ? sorted[low] + (at - low) * (sorted[low + 1] - sorted[low]) : sorted[low];
+}
+
+// The index over pretension under every record, grey, and what they say together.
+function allPlot(s, index, everything) {
+  const over = everything.map(({ numbers }) => AXES.pretension.map((_, f) => cell(numbers[index.name], s.ratio, f, s.period)));
+  const column = (f) => over.map((line) => line[f]);
+  const said = (of) => AXES.pretension.map((_, f) => (column(f).every(Number.isFinite) ? of(column(f)) : null));
+  const hover = (name) => `%{x} kN: %{y:.4g} ${index.unit}<extra>${name}</extra>`;
+  const data = over.map((y, n) => ({
+    type: "scatter", mode: "lines", name: plain(about.records[everything[n].k].name), x: AXES.pretension, y, line: { color: LOOK.grey, width: 1 }, showlegend: false,
+    hovertemplate: hover(plain(about.records[everything[n].k].name)),
+  }));
+  const bad = index.best === "most" ? [0.16, Math.min] : [0.84, Math.max];
+  for (const [name, of, color, dash] of [
+    ["median", (v) => quantile(v, 0.5), LOOK.median, "solid"],
+    [index.best === "most" ? "16 %" : "84 %", (v) => quantile(v, bad[0]), LOOK.high, "dash"],
+    ["worst", (v) => bad[1](...v), LOOK.worst, "dot"],
+  ]) data.push({ type: "scatter", mode: "lines", name, x: AXES.pretension, y: said(of), line: { color, dash, width: 2.4 }, hovertemplate: hover(name) });
+  return {
+    data,
+    layout: layout({
+      showlegend: true, legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0 }, margin: { l: 58, r: 12, t: 30, b: 42 },
+      xaxis: axis("pretension, kN"), yaxis: axis(folded(`${index.title}${unitOf(index)}`), { rangemode: "tozero", automargin: true }),
+      shapes: [{ type: "line", x0: pointOf(s).pretension, x1: pointOf(s).pretension, y0: 0, y1: 1, yref: "paper", line: { color: LIMIT, width: 1, dash: "dot" } }],
     }),
   };
 }

@@ -1,8 +1,11 @@
 // Words: what stands beside a picture, for those who do not see it and for those who do.
 
 function pointWords(s) {
-  return `period ${written(AXES.period[s.period], "s")}, stiffness ratio ${written(AXES.stiffness_ratio[s.ratio])}, ` +
-    `pretension ${written(AXES.pretension[s.force], "kN")}`;
+  const at = pointOf(s), own = FIELDS.filter((field) => field.own && s.free && s.free[field.name] !== field.value);
+  return [
+    `period ${written(at.period, "s")}`, `stiffness ratio ${written(at.stiffness_ratio)}`, `pretension ${written(at.pretension, "kN")}`,
+    ...own.map((field) => `${field.title} ${written(s.free[field.name], field.unit)}`),
+  ].join(", ");
 }
 
 function unitOf(index) {
@@ -48,6 +51,13 @@ function curveWords(s, k, index, numbers) {
   return `${about.records[k].name}: ${written(here, index.unit)} at ${written(AXES.pretension[s.force], "kN")}. ${bestWords(s, k, index, numbers)}`;
 }
 
+function allWords(s, index, everything) {
+  const at = AXES.pretension[s.force ?? 0], here = everything.map(({ numbers }) => cell(numbers[index.name], s.ratio, s.force ?? 0, s.period));
+  if (!here.every(Number.isFinite)) return "Where a record has no number there is no median.";
+  const bad = index.best === "most" ? Math.min(...here) : Math.max(...here);
+  return `At ${written(at, "kN")} the median is ${written(quantile(here, 0.5), index.unit)}, the worst ${written(bad, index.unit)}, of ${everything[here.indexOf(bad)].name}.`;
+}
+
 function sliceMarks(index) {
   const marks = index.best === "least" ? ["Open marks: within 5 % of the least."] : [];
   if (about.served && index.searched) marks.push("Star and band: searched between the marks.");
@@ -59,7 +69,7 @@ function historyWords(history) {
   const [acceleration, displacement] = history.compared;
   const words = `Peaks of the motion between samples too: ${written(acceleration.history, acceleration.unit)}` +
     ` and ${written(displacement.history, displacement.unit)}.`;
-  if (acceleration.cube === null) return words;
+  if (acceleration.cube === null) return `${words} The cube has no such cell: its maps are of the nearest.`;
   const off = Math.abs(acceleration.history - acceleration.cube) / Math.max(Math.abs(acceleration.cube), 1e-300);
   return off < 1e-9
     ? `${words} The cube's cell says the same.`
