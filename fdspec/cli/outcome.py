@@ -67,24 +67,15 @@ def _profile_table(cube: xr.Dataset) -> list[str]:
     shown = [name for name in STOREY_COLUMNS if name in cube]
     for name in cube["building"].values:
         one = nearest_design(cube.sel(building=name))
-        worst = summary(one[[*shown, "status"]].load(), percentiles=()).sel(statistic=["median", "worst"])
-        head = [
-            "storey",
-            *(
-                f"{STOREY_COLUMNS[column].head} {statistic}"
-                for column in shown
-                for statistic in ("median", "worst")
-            ),
+        told = summary(one[[*shown, "status"]].load(), percentiles=())
+        pairs = [(column, statistic) for column in shown for statistic in ("median", "worst")]
+        head = ["storey", *(f"{STOREY_COLUMNS[column].head} {statistic}" for column, statistic in pairs)]
+        columns = [
+            STOREY_COLUMNS[column].scale * told[column].sel(statistic=statistic).values
+            for column, statistic in pairs
         ]
         rows = [
-            [
-                str(int(cube["storey"].values[k])),
-                *(
-                    f"{STOREY_COLUMNS[column].scale * float(worst[column].isel(storey=k).sel(statistic=statistic)):.4g}"
-                    for column in shown
-                    for statistic in ("median", "worst")
-                ),
-            ]
+            [str(int(cube["storey"].values[k])), *(f"{values[k]:.4g}" for values in columns)]
             for k in reversed(range(cube.sizes["storey"]))
         ]
         scales = f"slip scale {one['slip_scale'].item():g}, stiffness scale {one['stiffness_scale'].item():g}"

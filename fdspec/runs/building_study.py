@@ -147,9 +147,10 @@ class BuildingStudy:
         """Return the study as the text of a study file, to be edited; buildings stay in their files."""
         if unnamed := [name for name in self.grid.names if name not in self.sources]:
             raise StudyError(f"building {unnamed[0]!r} was read from no file: there is nothing to name it by")
+        outputs = OUTPUTS if self.outputs is None else self.outputs
         files = ", ".join(f"{string_text(name)} = {string_text(file)}" for name, file in self.sources.items())
         return f"""\
-# A study of buildings: every (record, building, factor on the braces, factor on the slip forces). Units are SI.
+# A study of buildings: every (record, building, factor on braces, factor on slip forces). Units are SI.
 
 # Building files by name, relative to this file; a list of files takes their names.
 buildings = {{ {files} }}
@@ -165,7 +166,7 @@ stiffness_scale = {axis_text(self.grid.stiffness_scale)}
 slip_scale = {axis_text(self.grid.slip_scale)}
 
 # Variables of the cube; left out, these.
-{"# " if self.outputs is None else ""}outputs = {strings_text(OUTPUTS if self.outputs is None else self.outputs)}
+{"# " if self.outputs is None else ""}outputs = {strings_text(outputs)}
 # Check the energy balance of every history.
 certify = {bool_text(self.certify)}
 """

@@ -1,10 +1,9 @@
-"""What is done with a study of either kind, of single-storey frames or of buildings: a rule for each kind."""
+"""What is done with a study of either kind, of single-storey frames or of buildings."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from functools import singledispatch
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import fdspec.runs.sweep as of_frames
@@ -37,141 +36,82 @@ class Planned(NamedTuple):
     n_bytes: int
 
 
-@singledispatch
-def compute(study: Any, motions: Motions, **how: Any) -> xr.Dataset:
-    """Return the cube of a study; how: where and how it is computed, as `sweep` takes it."""
-    raise TypeError(f"no study: {type(study).__name__}")
-
-
-@singledispatch
-def parameters(study: Any) -> dict[str, object]:
-    """Return the parameters that stand in the study's cube, save its records."""
-    raise TypeError(f"no study: {type(study).__name__}")
-
-
-@singledispatch
-def expected(study: Any, motions: Motions) -> float:
-    """Return the seconds that the study takes on this machine, rather too many."""
-    raise TypeError(f"no study: {type(study).__name__}")
-
-
-@singledispatch
-def rough_seconds(study: Any, motions: Motions) -> float:
-    """Return the core time of a study, s, roughly, with nothing computed."""
-    raise TypeError(f"no study: {type(study).__name__}")
-
-
-@singledispatch
-def planned(study: Any, motions: Motions) -> Planned:
-    """Return what the study will take, of time by a measured sample."""
-    raise TypeError(f"no study: {type(study).__name__}")
-
-
-@singledispatch
-def refuse_endless(study: Any, motions: Motions, store: str | os.PathLike[str] | None) -> None:
-    """Raise InvalidInput for a study that this machine cannot hold, or that takes longer than the limit."""
-    raise TypeError(f"no study: {type(study).__name__}")
-
-
-@compute.register
-def _(study: Study, motions: Motions, **how: Any) -> xr.Dataset:
-    grid = {name: getattr(study.grid, name) for name in GRID_FIELDS}
-    return of_frames.sweep(motions, **grid, outputs=study.outputs, certify=study.certify, **how)
-
-
-@compute.register
-def _(study: BuildingStudy, motions: Motions, **how: Any) -> xr.Dataset:
+def compute(study: AnyStudy, motions: Motions, **how: Any) -> xr.Dataset:
+    """Return the cube of a study; how: where and how it is computed, as `fdspec.sweep` takes it."""
     grid = study.grid
+    what: dict[str, Any] = {"outputs": study.outputs, "certify": study.certify, **how}
+    if isinstance(study, Study):
+        return of_frames.sweep(motions, **{name: getattr(grid, name) for name in GRID_FIELDS}, **what)
     return of_buildings.sweep_buildings(
         motions,
-        dict(zip(grid.names, grid.buildings, strict=True)),
-        stiffness_scale=grid.stiffness_scale,
-        slip_scale=grid.slip_scale,
-        outputs=study.outputs,
-        certify=study.certify,
-        **how,
+        dict(zip(study.grid.names, study.grid.buildings, strict=True)),
+        stiffness_scale=study.grid.stiffness_scale,
+        slip_scale=study.grid.slip_scale,
+        **what,
     )
 
 
-@parameters.register
-def _(study: Study) -> dict[str, object]:
-    usual = of_frames.usual_outputs(study.grid)
-    outputs = usual if study.outputs is None else study.outputs
-    wanted = chosen(outputs, (*usual, *of_frames.ON_REQUEST), study.certify)
-    return {**study.grid.parameters, "certify": study.certify, "outputs": list(wanted)}
+def outputs_of(study: AnyStudy) -> tuple[str, ...]:
+    """Return the variables of the study's cube, in their order."""
+    if isinstance(study, Study):
+        usual = of_frames.usual_outputs(study.grid)
+        known = (*usual, *of_frames.ON_REQUEST)
+    else:
+        usual = known = of_buildings.known_outputs(study.grid)
+    return chosen(usual if study.outputs is None else study.outputs, known, study.certify)
 
 
-@parameters.register
-def _(study: BuildingStudy) -> dict[str, object]:
-    wanted = chosen(study.outputs, of_buildings.known_outputs(study.grid), study.certify)
-    return of_buildings.parameters_of(study.grid, wanted, study.certify)
+def parameters(study: AnyStudy) -> dict[str, object]:
+    """Return the parameters that stand in the study's cube, save its records."""
+    outputs = outputs_of(study)
+    if isinstance(study, Study):
+        return {**study.grid.parameters, "certify": study.certify, "outputs": list(outputs)}
+    return of_buildings.parameters_of(study.grid, outputs, study.certify)
 
 
-@expected.register
-def _(study: Study, motions: Motions) -> float:
-    return of_frames.measured(motions, study.grid, study.certify)
-
-
-@expected.register
-def _(study: BuildingStudy, motions: Motions) -> float:
+def expected(study: AnyStudy, motions: Motions) -> float:
+    """Return the seconds that the study takes on this machine, rather too many."""
+    if isinstance(study, Study):
+        return of_frames.measured(motions, study.grid, study.certify)
     return of_buildings.measured(motions, study.grid, study.certify) / cores()
 
 
-@rough_seconds.register
-def _(study: Study, motions: Motions) -> float:
-    return sum(seconds_of_sweep(study.grid, motions, study.certify))
-
-
-@rough_seconds.register
-def _(study: BuildingStudy, motions: Motions) -> float:
+def rough_seconds(study: AnyStudy, motions: Motions) -> float:
+    """Return the core time of a study, s, roughly, with nothing computed."""
+    if isinstance(study, Study):
+        return sum(seconds_of_sweep(study.grid, motions, study.certify))
     return of_buildings.rough_seconds(motions, study.grid)
 
 
-@planned.register
-def _(study: Study, motions: Motions) -> Planned:
-    n_sr, n_f, n_t = study.grid.shape
-    cost = cost_of(study.grid, motions, study.certify)
-    samples = sum(motion.n for motion in motions)
-    sizes = of_frames.bytes_of(motions, study.grid, study.outputs or of_frames.usual_outputs(study.grid))
-    return Planned(
-        (("stiffness ratios", n_sr), ("pretensions", n_f), ("periods", n_t)),
-        len(motions) * study.grid.size,
-        cost.of_sweep(study.grid, motions),
-        cost.transitions_per_sample * samples / len(motions),
-        sum(sizes.values()),
-    )
+def refuse_endless(study: AnyStudy, motions: Motions, store: str | os.PathLike[str] | None) -> None:
+    """Raise InvalidInput for a study that this machine cannot hold, or that takes longer than the limit."""
+    outputs = outputs_of(study)
+    if isinstance(study, Study):
+        of_frames.refuse_endless(motions, study.grid, outputs, rough_seconds(study, motions), store)
+    else:
+        of_buildings.refuse_endless(motions, study.grid, outputs, store)
 
 
-@planned.register
-def _(study: BuildingStudy, motions: Motions) -> Planned:
+def planned(study: AnyStudy, motions: Motions) -> Planned:
+    """Return what the study will take, of time by a measured sample."""
+    outputs = outputs_of(study)
+    if isinstance(study, Study):
+        n_sr, n_f, n_t = study.grid.shape
+        cost = cost_of(study.grid, motions, study.certify)
+        samples = sum(motion.n for motion in motions)
+        return Planned(
+            (("stiffness ratios", n_sr), ("pretensions", n_f), ("periods", n_t)),
+            len(motions) * study.grid.size,
+            cost.of_sweep(study.grid, motions),
+            cost.transitions_per_sample * samples / len(motions),
+            sum(of_frames.bytes_of(motions, study.grid, outputs).values()),
+        )
     n_b, n_k, n_s = study.grid.shape
-    sizes = of_buildings.bytes_of(
-        motions, study.grid, study.outputs or of_buildings.known_outputs(study.grid)
-    )
+    storeys = study.grid.n_storeys
     return Planned(
-        (
-            ("buildings", n_b),
-            ("storeys", study.grid.n_storeys),
-            ("stiffness scales", n_k),
-            ("slip scales", n_s),
-        ),
+        (("buildings", n_b), ("storeys", storeys), ("stiffness scales", n_k), ("slip scales", n_s)),
         len(motions) * n_b * n_k * n_s,
         of_buildings.measured(motions, study.grid, study.certify),
         None,
-        sum(sizes.values()),
-    )
-
-
-@refuse_endless.register
-def _(study: Study, motions: Motions, store: str | os.PathLike[str] | None) -> None:
-    rough = rough_seconds(study, motions)
-    of_frames.refuse_endless(
-        motions, study.grid, study.outputs or of_frames.usual_outputs(study.grid), rough, store
-    )
-
-
-@refuse_endless.register
-def _(study: BuildingStudy, motions: Motions, store: str | os.PathLike[str] | None) -> None:
-    of_buildings.refuse_endless(
-        motions, study.grid, study.outputs or of_buildings.known_outputs(study.grid), store
+        sum(of_buildings.bytes_of(motions, study.grid, outputs).values()),
     )

@@ -138,6 +138,7 @@ class Study:
         """Return the study as the text of a study file, every field named, to be edited."""
         grid = self.grid
         kinetic = grid.kinetic_friction_coefficient
+        outputs = OUTPUTS if self.outputs is None else self.outputs
         return f"""\
 # A study of fdspec: every (record, stiffness ratio, pretension, period). Units are SI.
 # A field left out has the value of the study on the nine records.
@@ -173,7 +174,7 @@ brace_damping_ratio = {grid.brace_damping_ratio!r}
 # Devices of all frames alike; left out, there are none. m, N, N/m.
 {_device_lines(grid)}
 # Variables of the cube; left out, these. Only on request: {", ".join(ON_REQUEST)}.
-{"# " if self.outputs is None else ""}outputs = {strings_text(OUTPUTS if self.outputs is None else self.outputs)}
+{"# " if self.outputs is None else ""}outputs = {strings_text(outputs)}
 # Check the energy balance of every history.
 certify = {bool_text(self.certify)}
 """
