@@ -10,7 +10,10 @@ COMMANDS = {
         "fdspec.cli.sweep:sweep",
         "Compute the cube of a study; without a file, the study of the nine records.",
     ),
-    "simulate": ("fdspec.cli.simulate:simulate", "Compute the history of one frame or building under one record."),
+    "simulate": (
+        "fdspec.cli.simulate:simulate",
+        "Compute the history of one frame or building under one record.",
+    ),
     "choose": ("fdspec.cli.choose:choose", "Recommend a pretension, with its gain and its bounds."),
     "spectra": ("fdspec.cli.spectra:spectra", "Compute elastic and inelastic response spectra of records."),
     "fragility": (

@@ -107,7 +107,9 @@ def figures(
     scales = {"slip_scale": slip_scale, "stiffness_scale": stiffness_scale}
     if "building" in dataset.dims:
         if study_file or panels:
-            raise click.UsageError("--study and --panels are of the study's figures; the cube is of buildings.")
+            raise click.UsageError(
+                "--study and --panels are of the study's figures; the cube is of buildings."
+            )
         names = [str(name) for name in dataset["building"].values]
         wanted = _numbers(only) or names
         for name in wanted:

@@ -103,7 +103,9 @@ def _at(cube: xr.Dataset, place: str) -> xr.Dataset:
     same = np.isclose(numbers, wanted, rtol=1e-9, atol=0.0)
     if not same.any():
         near = numbers[np.argsort(np.abs(numbers - wanted))[:2]]
-        raise InvalidInput(f"--at: {axis} has no {wanted:g}; nearest are {' and '.join(f'{v:g}' for v in near)}")
+        raise InvalidInput(
+            f"--at: {axis} has no {wanted:g}; nearest are {' and '.join(f'{v:g}' for v in near)}"
+        )
     return cube.isel({axis: int(np.argmax(same))})
 
 

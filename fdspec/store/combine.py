@@ -144,9 +144,7 @@ def _require_alike(one: Mapping[str, Any], other: Mapping[str, Any], number: int
     if len(different) == 1 and axes:
         hints.append(f"along={axes[0]!r} (--along {axes[0]}) joins them along it")
     remedy = "; ".join(hints) or "sweep them with the same parameters"
-    parts = ", ".join(
-        f"{name} ({_short(one.get(name))} and {_short(other.get(name))})" for name in different
-    )
+    parts = ", ".join(f"{name} ({_short(one.get(name))} and {_short(other.get(name))})" for name in different)
     raise InvalidInput(f"cube 1 and cube {number} differ in {parts}: {remedy}")
 
 
@@ -154,7 +152,9 @@ def _require_same(one: xr.Dataset, other: xr.Dataset, number: int, along: str) -
     """Refuse cubes whose other axes, or what lacks the dim, are not the same to the bit."""
     if set(map(str, one.variables)) != set(map(str, other.variables)):
         apart = sorted(set(map(str, one.variables)) ^ set(map(str, other.variables)))
-        raise InvalidInput(f"{', '.join(apart)} is in one of cube 1 and cube {number} alone; drop it from both")
+        raise InvalidInput(
+            f"{', '.join(apart)} is in one of cube 1 and cube {number} alone; drop it from both"
+        )
     for name, variable in one.variables.items():
         if along in variable.dims:
             continue
