@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import click
 
 from fdspec.cli.as_json import echo_json, json_option, of_dataset
-from fdspec.cli.as_json import echo_json, json_option, of_dataset
 from fdspec.cli.echo import echo
 from fdspec.cli.output import force_option, free
 from fdspec.cli.record_options import file_options, named_records
@@ -95,7 +94,6 @@ PAGES = (".html", ".htm")
 @click.option("--author", default="", metavar="TEXT", help="Author that the page names.")
 @click.option("-o", "--output", metavar="FILE.nc", help="Write every number of it, netCDF.")
 @json_option
-@json_option
 @force_option
 def choose(
     records: tuple[str, ...],
@@ -124,7 +122,6 @@ def choose(
     project: str,
     author: str,
     output: str | None,
-    as_json: bool,
     as_json: bool,
     force: bool,
 ) -> None:

@@ -51,8 +51,8 @@ def summary(
 ) -> None:
     """Sum up a cube over its records: median, mean, percentiles and worst of every result.
 
-    Histories that did not end well do not count. Where more than one cell is left beside the storeys, the table
-    shows the least and the most of each statistic over the cells; the file and --json hold every cell.
+    Histories that did not end well do not count. Where more than one cell is left beside the storeys, the
+    table shows the least and the most of each statistic over the cells; the file and --json hold every cell.
     """
     from fdspec import store
     from fdspec.measures.summary import PERCENTILES

@@ -143,14 +143,14 @@ def read_building(path: str | Path, *, design: bool = False) -> Building:
 
     Keys: `floor_mass`, kg, a list from the lowest floor up; `storey_stiffness` and `brace_stiffness`, N/m, a
     number or one a storey (a brace of 0 is none; the frame's stiffness may be a matrix, a list of rows), or
-    in their place `bare_period` and `braced_period`, s, which fix one stiffness for all storeys and one for all
-    braces; `brace_mass`, kg, 50 unless given; `brace_damping`, N s/m; `slip_force`, N, a number or one a
+    in their place `bare_period` and `braced_period`, s, which fix one stiffness for all storeys and one for
+    all braces; `brace_mass`, kg, 50 unless given; `brace_damping`, N s/m; `slip_force`, N, a number or one a
     storey, inf never slips; `kinetic_slip_force`, N, or `kinetic_ratio`, kinetic over static friction, 1
     unless given; one of `damping_ratio` in every mode of the bare frame, or one a mode, 0.05 unless given,
     `rayleigh_damping`, a table of ratio, period_1 and period_2, and `damping_matrix`, N s/m. What `Building`
     knows of devices goes by the same names (`storey_height`, `yield_shear`, `hardening_ratio`,
-    `gravity_load`, `slot_length`, `slot_stiffness`, `recentring_stiffness`, `collapse_drift`), and each link is a table
-    ``[[links]]`` with the parameters of `Link`.
+    `gravity_load`, `slot_length`, `slot_stiffness`, `recentring_stiffness`, `collapse_drift`), and each link
+    is a table ``[[links]]`` with the parameters of `Link`.
 
     Parameters
     ----------

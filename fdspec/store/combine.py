@@ -34,8 +34,8 @@ class _Record:
 def combine(cubes: Sequence[xr.Dataset], along: str = "record") -> xr.Dataset:
     """Join cubes along one dim into the cube that one sweep over all of it would have given.
 
-    Nothing else may differ: not the other axes, no parameter, not the version.  Along a dim of numbers the cells
-    come in the order of the numbers, along ``record`` and ``building`` in that of the cubes.
+    Nothing else may differ: not the other axes, no parameter, not the version.  Along a dim of numbers the
+    cells come in the order of the numbers, along ``record`` and ``building`` in that of the cubes.
 
     Parameters
     ----------

@@ -158,7 +158,7 @@ def test_profiles_draw_what_is_there(buildings: xr.Dataset) -> None:
     figure = plot_profiles(buildings, name)
     assert encode(figure, "png")
     labels = [axis.get_xlabel() for axis in figure.axes]
-    assert labels[0].startswith("drift") and "acceleration, g" in labels
+    assert labels[0].startswith("drift")
     assert any("slip" in label for label in labels)
     assert any("kN" in label for label in labels)
     acceleration = figure.axes[labels.index("acceleration, g")]
