@@ -116,3 +116,15 @@ def test_another_building_is_refused_by_name_and_part(tmp_path: Path) -> None:
 def test_a_task_has_a_cell_at_least(tmp_path: Path) -> None:
     with pytest.raises(InvalidInput, match="cells_per_task must be at least 1, got 0"):
         fdspec.sweep_buildings(motions(), unlike(), **AXES, store=tmp_path / "cube.zarr", cells_per_task=0)
+
+
+@pytest.mark.slow
+def test_blocks_with_and_without_devices_give_the_plain_sweep(tmp_path: Path) -> None:
+    name, elastic = next(iter(unlike().items()))
+    buildings = {name: elastic, "yielding": elastic.with_changes(yield_shear=60e3, storey_height=3.0)}
+    plain = fdspec.sweep_buildings(motions(), buildings, **AXES)
+    assert "ductility" in plain
+    for cells in (1, 5):
+        store = tmp_path / f"{cells}.zarr"
+        swept = fdspec.sweep_buildings(motions(), buildings, **AXES, store=store, cells_per_task=cells)
+        assert swept.load().identical(plain)
