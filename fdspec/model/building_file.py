@@ -13,7 +13,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationErr
 from fdspec.errors import InvalidInput
 from fdspec.model.building import Building
 from fdspec.model.damping import Damping, DampingMatrix, ModalDamping, RayleighDamping
-from fdspec.model.link import Link
+from fdspec.model.link import Link, TensionBrace
 from fdspec.model.toml_lines import key_lines, line_of, parsed
 
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
@@ -79,6 +79,20 @@ class _Link(BaseModel):
     name: str | None = None
 
 
+class _TensionBrace(BaseModel):
+    """What a table ``[[tension_braces]]`` may hold: the parameters of `TensionBrace`."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+    upper: int
+    lower: int
+    stiffness: Positive
+    yield_force: PositiveOrInf | None = None
+    slack: NotNegative = 0.0
+    direction: int = 1
+    name: str | None = None
+
+
 class _Rayleigh(BaseModel):
     """Rayleigh damping: one ratio at two periods, s."""
 
@@ -117,6 +131,7 @@ class _File(BaseModel):
     recentring_stiffness: list[NotNegative] | NotNegative | None = None
     collapse_drift: list[PositiveOrInf] | PositiveOrInf | None = None
     links: list[_Link] = []
+    tension_braces: list[_TensionBrace] = []
 
     @model_validator(mode="after")
     def _told_once(self) -> _File:
@@ -150,7 +165,8 @@ def read_building(path: str | Path, *, design: bool = False) -> Building:
     `rayleigh_damping`, a table of ratio, period_1 and period_2, and `damping_matrix`, N s/m. What `Building`
     knows of devices goes by the same names (`storey_height`, `yield_shear`, `hardening_ratio`,
     `gravity_load`, `slot_length`, `slot_stiffness`, `recentring_stiffness`, `collapse_drift`), and each link
-    is a table ``[[links]]`` with the parameters of `Link`.
+    is a table ``[[links]]`` with the parameters of `Link`, or ``[[tension_braces]]`` with those of
+    `TensionBrace`.
 
     Parameters
     ----------
@@ -230,7 +246,10 @@ def _building(file: _File) -> Building:
         np.multiply(force, file.kinetic_ratio, out=kinetic, where=np.isfinite(force))
     options: dict[str, Any] = {
         **{name: getattr(file, name) for name in DEVICES},
-        "links": [Link(**link.model_dump()) for link in file.links],
+        "links": [
+            *(Link(**link.model_dump()) for link in file.links),
+            *(TensionBrace(**brace.model_dump(exclude_none=True)) for brace in file.tension_braces),
+        ],
         "slip_force": force,
         "kinetic_slip_force": kinetic,
         "damping": _damping(file),
@@ -282,6 +301,8 @@ def _mistakes(table: Mapping[str, Any], error: ValidationError) -> list[tuple[Wh
         sentence = mistake["msg"].removeprefix("Value error, ").replace("Input should be", "should be")
         if kind == "extra_forbidden":
             sentence = f"is no key of a building file; known are {', '.join(_File.model_fields)}"
+            if len(place) > 1:
+                sentence = f"there is no key {place[-1]}"
         if kind == "too_short":
             sentence = "must have one value for each storey, is empty"
         if kind == "missing":

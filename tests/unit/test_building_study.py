@@ -57,9 +57,27 @@ def test_a_building_file_holds_the_whole_building(tmp_path: Path) -> None:
     assert built.kinetic_slip_force.tolist() == [30e3, 15e3]
 
 
+def test_devices_and_links_stand_in_the_file(tmp_path: Path) -> None:
+    path = tmp_path / "b.toml"
+    path.write_text(
+        TWO + "storey_height = 3.0\nyield_shear = [2e5, inf]\nslot_length = 0.02\nslot_stiffness = 1e8\n"
+        "[[links]]\nupper = 2\nlower = 0\nstiffness = 2e7\nslip_force = 4e4\n"
+        "[[tension_braces]]\nupper = 1\nlower = 0\nstiffness = 1e7\ndirection = -1\n"
+    )
+    links = [fdspec.Link(2, 0, 2e7, 4e4), fdspec.TensionBrace(1, 0, 1e7, direction=-1)]
+    assert read_building(path, design=True) == fdspec.Building(
+        [30e3, 20e3], 40e6, 50.0, [80e6, 60e6], [60e3, 30e3],
+        storey_height=3.0, yield_shear=[2e5, np.inf], slot_length=0.02, slot_stiffness=1e8, links=links,
+    )  # fmt: skip
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [
+        (TWO + "[[links]]\nupper = 2\n", "line 5: links: needs lower at index 0"),
+        (TWO + "[[links]]\nupper = 2\nlower = 0\nstiffness = 1e7\nslip_force = 1\nx = 1\n", "no key x"),
+        (TWO + "[[links]]\nupper = 9\nlower = 0\nstiffness = 1e7\nslip_force = 1\n", "9"),
+        (TWO + "yield_shear = -1\n", "line 5: yield_shear: should be greater than 0"),
         (TWO.replace("slip_force = [60e3, 30e3]\n", ""), "has no slip_force"),
         (
             TWO.replace("60e3, 30e3", "60e3, -1"),
