@@ -111,7 +111,7 @@ def nearest_design(cube: xr.Dataset) -> xr.Dataset:
     return cube.isel(at)
 
 
-def _level(value: float) -> float:
+def _level(value: object) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float | np.number) or not 0.0 <= value <= 100.0:
         raise InvalidInput(f"percentiles must be from 0 to 100, got {value!r}")
     return float(value)

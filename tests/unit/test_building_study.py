@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -176,3 +177,44 @@ def test_buildings_of_other_heights_are_refused(folder: Path) -> None:
     (folder / "s.toml").write_text('buildings = ["two.toml", "one.toml"]\n')
     with pytest.raises(StudyError, match="line 1: buildings must all have the same number of storeys"):
         read_study(folder / "s.toml")
+
+
+def test_a_design_is_swept_and_simulated_from_files(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
+    (folder / "s.toml").write_text(
+        'buildings = ["two.toml"]\n' + records("a", "b") + "slip_scale = [0.5, 1]\n"
+    )
+    assert main(["sweep", "s.toml", "--dry-run", "--json"]) == 0
+    plan = json.loads(capsys.readouterr().out)
+    assert (plan["buildings"], plan["storeys"], plan["histories"]) == (1, 2, 4)
+    assert main(["sweep", "s.toml", "-o", "plain.nc", "--not-resumable"]) == 0
+    table = capsys.readouterr().out
+    assert "2 records x 1 building x 1 stiffness scale x 2 slip scales = 4 histories of 2 storeys" in table
+    assert main(["sweep", "s.toml", "-o", "plain.nc"]) == 0
+    assert "holds this study already" in capsys.readouterr().out
+    assert main(["sweep", "s.toml", "-o", "other.nc", "--resumable", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["statuses"] == {"ok": 4}
+    assert not list(folder.glob("*.zarr"))
+    plain = fdspec.open("plain.nc")
+    assert fdspec.open("other.nc").identical(plain)
+    about = ["--record", "a.txt", "--units", "g", "--dt", "0.02"]
+    assert main(["simulate", "--building", "two.toml", *about, "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)["variables"]
+    wanted = plain["peak_drift"].sel(record="a", slip_scale=1.0).squeeze().values
+    np.testing.assert_array_equal(told["peak_drift"]["values"], wanted)
+    assert main(["simulate", "--building", "two.toml", *about, "--force"]) == 0
+    rows = capsys.readouterr().out.splitlines()
+    assert rows[0].split()[:4] == ["storey", "slips", "at", "kN"]
+    assert [row.split()[0] for row in rows[1:3]] == ["2", "1"]
+    for options, said in (
+        (
+            ["--building", "two.toml", "--period", "1"],
+            "--period is of the single-storey frame; two.toml tells",
+        ),
+        ([], "Give --period and --stiffness-ratio of a frame, or --building B.toml"),
+        (["--building", "no.toml"], "no.toml: cannot be read"),
+    ):
+        assert main(["simulate", *about, *options, "-o", "h.nc"]) == 2
+        assert said in capsys.readouterr().err
