@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 import click
+import numpy as np
 
 from fdspec.cli.as_json import echo_json, json_option, of_dataset
 from fdspec.cli.echo import echo
@@ -214,7 +215,7 @@ def _results(history: xr.Dataset) -> str:
 
     one = history[["peak_acceleration", "peak_displacement", "peak_velocity"]].max("storey")
     last = history["residual_displacement"]
-    last = last.isel(storey=int(abs(last).argmax()))
+    last = last.isel(storey=int(np.argmax(np.abs(last.values))))
     lines = {
         "PGA": f"{history['pga'].item() / G:.4g} g",
         "peak acceleration": f"{one['peak_acceleration'].item() / G:.4g} g",
