@@ -14,8 +14,8 @@ from fdspec.errors import InvalidInput
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.figure import Figure
 
+    from fdspec.figures.page import Figure
     from fdspec.report.study_figures import Picture
 
 KINDS: Final = ("png", "pdf", "svg")
@@ -82,7 +82,7 @@ def figures(
     listed: bool,
     force: bool,
 ) -> None:
-    """Draw the study's figures: 4 and 6 (validation), 8 and 9 (records), 10 to 18 (acceleration).
+    """Draw the study's figures: 4 and 6 (validation), 7 (the damper), 8 and 9 (records), 10 to 18 (spectra).
 
     Each of 10 to 18 shows one record, a panel a stiffness ratio: the surface over pretension and period, and
     beside it a map with the best pretension. Beyond the study, `ensemble` shows all records together, `chart`

@@ -8,6 +8,7 @@ import click
 import numpy as np
 
 from fdspec.cli.as_json import echo_json, json_option, of_dataset
+from fdspec.cli.device_options import DEVICES, device_options, given
 from fdspec.cli.echo import echo
 from fdspec.cli.output import PICTURES, force_option, free, save_picture
 from fdspec.cli.record_options import file_options, named_record
@@ -68,6 +69,7 @@ FRAME: Final = (
 @click.option(
     "--brace-damping-ratio", type=float, default=0.0, show_default=True, metavar="X", help="Of the brace."
 )
+@device_options
 @click.option(
     "--free-vibration",
     type=float,
@@ -112,6 +114,7 @@ def simulate(
     storey: int,
     as_json: bool,
     force: bool,
+    **devices: float | None,
 ) -> None:
     """Compute the history of one frame or building under one record: motion, friction, phases, energies.
 
@@ -152,6 +155,7 @@ def simulate(
             damping_ratio=damping_ratio,
             kinetic_slip_force=kinetic_slip_force,
             brace_damping_ratio=brace_damping_ratio,
+            **given(devices),  # type: ignore[arg-type]
         )
     )
     named = named_record(record, units, dt, channel)
@@ -175,7 +179,7 @@ def simulate(
 def _refuse_frame_options(building: str) -> None:
     """Raise UsageError for an option that tells what the building file tells."""
     context = click.get_current_context()
-    for name in FRAME:
+    for name in (*FRAME, *DEVICES):
         if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
             option = "--" + name.replace("_", "-")
             raise click.UsageError(f"{option} is of the single-storey frame; {building} tells the building.")
@@ -228,5 +232,12 @@ def _results(history: xr.Dataset) -> str:
         "energy put in": f"{history['input_energy'].values[-1] / 1e3:.4g} kJ",
         "error of energy": f"{history['energy_error'].item():.1e} of the energy put in",
     }
+    if "ductility" in one:
+        lines |= {
+            "largest slip": f"{one['peak_slip'].item() * 1e3:.4g} mm",
+            "ductility": f"{one['ductility'].item():.4g}",
+            "plastic drift": f"{one['plastic_drift'].item() * 1e3:.4g} mm",
+            "energy of columns": f"{one['column_energy'].item() / 1e3:.4g} kJ",
+        }
     width = max(map(len, lines))
     return "\n".join(f"{name:<{width}}  {value}" for name, value in lines.items())

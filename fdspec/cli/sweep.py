@@ -17,7 +17,7 @@ from fdspec.cli.as_json import echo_json, json_option
 from fdspec.cli.echo import echo
 from fdspec.cli.held import holds
 from fdspec.cli.output import force_option, free, is_there
-from fdspec.cli.record_options import file_options, named_records
+from fdspec.cli.record_options import RecordsOption, file_options, named_records
 from fdspec.cli.run_options import STORE_SUFFIX, client_of, kept, logged, run_options, store_of
 from fdspec.cli.table import grouped, seconds, size
 from fdspec.errors import BusyError
@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     "--record",
     "--records",
     "records",
+    cls=RecordsOption,
     multiple=True,
     metavar="NAME|FILE",
     help="A record of the catalogue or a file, in place of the study's; repeat it for several.",

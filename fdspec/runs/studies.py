@@ -10,12 +10,13 @@ import fdspec.runs.sweep as of_frames
 import fdspec.runs.sweep_buildings as of_buildings
 from fdspec.model.grid import GRID_FIELDS
 from fdspec.model.motion import GroundMotion
-from fdspec.runs.bounds import seconds_of_sweep
 from fdspec.runs.building_study import BuildingStudy
-from fdspec.runs.cost import measured as cost_of
+from fdspec.runs.cost import seconds_of_sweep
 from fdspec.runs.cube import chosen
+from fdspec.runs.pilot import measured as cost_of
+from fdspec.runs.pilot import wall_seconds
 from fdspec.runs.study import Study
-from fdspec.scheduling.threads import cores
+from fdspec.scheduling.task import cores
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -72,7 +73,7 @@ def parameters(study: AnyStudy) -> dict[str, object]:
 def expected(study: AnyStudy, motions: Motions) -> float:
     """Return the seconds that the study takes on this machine, rather too many."""
     if isinstance(study, Study):
-        return of_frames.measured(motions, study.grid, study.certify)
+        return wall_seconds(motions, study.grid, study.certify)
     return of_buildings.measured(motions, study.grid, study.certify) / cores()
 
 

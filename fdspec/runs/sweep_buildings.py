@@ -18,15 +18,17 @@ from numpy.typing import ArrayLike, NDArray
 from fdspec.model.building import Building, Frame
 from fdspec.model.building_grid import BuildingGrid, Buildings
 from fdspec.model.motion import GroundMotion
-from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_history
+from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long
+from fdspec.runs.cost import seconds_of_history
 from fdspec.runs.cube import assemble, chosen, named
 from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.progress import Shown
-from fdspec.scheduling.threads import Task, cores, fan_out, plan, require_per_task
+from fdspec.scheduling.task import Task, cores, plan, require_per_task
+from fdspec.scheduling.threads import fan_out
 from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS, demand_variables
 
 if TYPE_CHECKING:
-    from distributed import Client
+    from fdspec.scheduling.task import Client
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -159,7 +161,7 @@ def sweep_buildings(
         fan_out,
         motions=motions,
         each=1,
-        warm=partial(_warm, _with_devices(grid)),
+        warm=partial(_warm, grid),
         workers=workers,
         scheduler=scheduler,
         client=client,
@@ -250,7 +252,7 @@ def measured(motions: Sequence[GroundMotion], grid: BuildingGrid, certify: bool 
 
     They are taken around the strongest shaking, so that it is rather too much.
     """
-    _warm(_with_devices(grid))
+    _warm(grid)
     longest = max(motions, key=lambda motion: motion.n)
     peak = int(np.argmax(np.abs(longest.acceleration)))
     first = max(0, min(peak - WINDOW // 4, longest.n - WINDOW))
@@ -348,10 +350,12 @@ def _with_devices(grid: BuildingGrid) -> bool:
     return any(building.has_devices for building in grid.buildings)
 
 
-def _warm(devices: bool) -> None:
-    import fdspec.engines.many_storeys
+def _warm(grid: BuildingGrid) -> None:
+    from fdspec.engines.frames import runs_beside_others
 
-    if devices:
+    if not all(runs_beside_others(building.frame) for building in grid.buildings):
+        import fdspec.engines.many_storeys
+    if _with_devices(grid):
         import fdspec.engines.devices  # noqa: F401
 
 
@@ -359,8 +363,21 @@ def _run(
     grid: BuildingGrid, certify: bool, histories: IntArray, motion: GroundMotion
 ) -> tuple[FloatArray, FloatArray]:
     """Integrate some histories of a record: results by storey (m, rows, N) and totals (m, entries)."""
-    results = [_run_one(grid, certify, int(history), motion) for history in histories]
-    return np.stack([by_storey for by_storey, _ in results]), np.stack([totals for _, totals in results])
+    if _with_devices(grid):
+        results = [_run_one(grid, certify, int(history), motion) for history in histories]
+        return np.stack([rows for rows, _ in results]), np.stack([whole for _, whole in results])
+    from fdspec.engines.frames import peaks_of_frames
+    from fdspec.kernels.frame.results import STOREY_RESULTS, TOTALS
+
+    frames = [_frame(grid, int(history)) for history in histories]
+    by_storey = np.empty((len(frames), len(STOREY_RESULTS), grid.n_storeys))
+    totals = np.empty((len(frames), len(TOTALS)))
+    cells = histories < _ends(grid)[0]
+    for of, certified in ((cells, certify), (~cells, False)):
+        if of.any():
+            chosen_frames = [frame for frame, is_one in zip(frames, of, strict=True) if is_one]
+            by_storey[of], totals[of] = peaks_of_frames(chosen_frames, motion, certify=certified)
+    return by_storey, totals
 
 
 def _run_one(
@@ -371,16 +388,13 @@ def _run_one(
     The limits that ride along are those of the elastic frame. Beside a building with devices, one without
     is integrated by both engines: its peaks are those of the engine of frames, to the bit.
     """
-    from fdspec.engines.many_storeys import peaks_of
-    from fdspec.kernels.frame.history import STOREY_RESULTS, TOTALS
+    from fdspec.engines.frames import peaks_of_frames
+    from fdspec.kernels.frame.results import STOREY_RESULTS, TOTALS
 
-    cell = history < _ends(grid)[0]
-    if not _with_devices(grid):
-        return peaks_of(_frame(grid, history), motion, certify=certify and cell)
-    if not cell:
-        by_storey, totals = peaks_of(_frame(grid, history), motion, certify=False)
+    if history >= _ends(grid)[0]:
+        by_storey, of_all = peaks_of_frames([_frame(grid, history)], motion, certify=False)
         missing = np.zeros((len(_rows(grid)) - len(STOREY_RESULTS), grid.n_storeys))
-        return np.concatenate([by_storey, missing]), totals
+        return np.concatenate([by_storey[0], missing]), of_all[0]
     from fdspec.engines.devices import peaks_of as peaks_with_devices
 
     building = _building(grid, history)
@@ -388,13 +402,14 @@ def _run_one(
     table = np.stack([storeys[name] for name in _rows(grid)])
     totals = np.array([whole[name] for name in TOTALS])
     if not building.has_devices:
-        table[: len(STOREY_RESULTS)], totals = peaks_of(_frame(grid, history), motion, certify=certify)
+        by_storey, of_all = peaks_of_frames([_frame(grid, history)], motion, certify=certify)
+        table[: len(STOREY_RESULTS)], totals = by_storey[0], of_all[0]
     return table, totals
 
 
 def _rows(grid: BuildingGrid) -> tuple[str, ...]:
     """Return the names of what each storey has of its own."""
-    from fdspec.kernels.frame.history import STOREY_RESULTS
+    from fdspec.kernels.frame.results import STOREY_RESULTS
 
     return (*STOREY_RESULTS, *_demands(grid))
 
@@ -416,7 +431,7 @@ def _variables(
     wanted: Sequence[str],
 ) -> dict[str, NDArray[np.generic]]:
     """Put what the tasks returned where it stands in the cube."""
-    from fdspec.kernels.frame.history import TOTALS
+    from fdspec.kernels.frame.results import TOTALS
 
     cells, braced, bare = _ends(grid)
     histories = 1 + max(int(task.items.max()) for task in tasks)
