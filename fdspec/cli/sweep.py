@@ -200,7 +200,7 @@ def _finish(
 def _plan(study: AnyStudy, path: Path, as_json: bool) -> str:
     """Say what a run would do."""
     from fdspec.runs.studies import planned, refuse_endless, rough_seconds
-    from fdspec.scheduling.threads import cores
+    from fdspec.scheduling.task import cores
 
     motions = study.motions()
     count = cores()
