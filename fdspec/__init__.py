@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from fdspec.errors import RecordError as RecordError
     from fdspec.errors import StoreError as StoreError
     from fdspec.errors import StudyError as StudyError
+    from fdspec.measures.summary import summary as summary
     from fdspec.model.building import Building as Building
     from fdspec.model.damping import DampingMatrix as DampingMatrix
     from fdspec.model.damping import ModalDamping as ModalDamping
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
     from fdspec.runs.study import Study as Study
     from fdspec.runs.sweep import sweep as sweep
     from fdspec.runs.sweep_buildings import sweep_buildings as sweep_buildings
+    from fdspec.store.combine import combine as combine
     from fdspec.store.export import export as export
     from fdspec.store.netcdf import open as open  # noqa: A004
     from fdspec.store.netcdf import save as save
@@ -50,6 +52,7 @@ _NAMES = {
         "StoreError",
         "StudyError",
     ),
+    "measures": ("summary",),
     "model.building": ("Building",),
     "model.damping": ("DampingMatrix", "ModalDamping", "RayleighDamping"),
     "model.link": ("Link", "TensionBrace"),
@@ -59,7 +62,7 @@ _NAMES = {
     "runs.study": ("Study",),
     "runs.sweep": ("sweep",),
     "runs.sweep_buildings": ("sweep_buildings",),
-    "store": ("export", "open", "save"),
+    "store": ("combine", "export", "open", "save"),
 }
 """Module -> its names that are the package's own; the imports above tell type checkers the same."""
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from fdspec.cli.as_json import echo_json, json_option, of_dataset
 from fdspec.cli.device_options import device_options, given
 from fdspec.cli.echo import echo
 from fdspec.cli.output import force_option, free
@@ -95,6 +96,7 @@ PAGES = (".html", ".htm")
 @click.option("--project", default="", metavar="TEXT", help="Project that the page names.")
 @click.option("--author", default="", metavar="TEXT", help="Author that the page names.")
 @click.option("-o", "--output", metavar="FILE.nc", help="Write every number of it, netCDF.")
+@json_option
 @force_option
 def choose(
     records: tuple[str, ...],
@@ -123,6 +125,7 @@ def choose(
     project: str,
     author: str,
     output: str | None,
+    as_json: bool,
     force: bool,
     **devices: float | None,
 ) -> None:
@@ -188,12 +191,14 @@ def choose(
     )
     from fdspec.cli.table import text_width
 
-    echo(text(choice, width=text_width()))
+    if not as_json:
+        echo(text(choice, width=text_width()))
+    files: list[str] = []
     if cube_path is not None:
         from fdspec.store import save
 
         save(choice, cube_path, overwrite=force)
-        echo(str(cube_path))
+        files.append(str(cube_path))
     if page_path is not None:
         from fdspec.report.page import page
         from fdspec.store.replacing import replacing
@@ -201,7 +206,11 @@ def choose(
         with replacing(page_path, suffixes=PAGES) as part:
             written = page(choice, chosen, motions, title=title, project=project, author=author)
             part.write_text(written, encoding="utf-8")
-        echo(str(page_path))
+        files.append(str(page_path))
+    if as_json:
+        echo_json({"files": files, **of_dataset(choice)})
+    elif files:
+        echo("\n".join(files))
 
 
 def _index(given: str) -> str | dict[str, float]:

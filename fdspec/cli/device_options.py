@@ -20,6 +20,9 @@ _OPTIONS: Final = {
     "recentring_stiffness": ("N/M", "Of a spring across the slider, N/m."),
 }
 
+DEVICES: Final = tuple(_OPTIONS)
+"""Parameters of the options."""
+
 
 def device_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add the options; the command takes them as keywords, None where they are not given."""

@@ -7,13 +7,14 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from fdspec.errors import InvalidInput
 from fdspec.model.building import Building, shear_matrix
 from fdspec.model.damping import natural_modes
 from fdspec.model.grid import FloatArray, axis
 
+IntArray = NDArray[np.int64]
 Buildings = Building | Sequence[Building] | Mapping[str, Building]
 
 
@@ -56,6 +57,14 @@ class BuildingGrid:
                 object.__setattr__(self, name, axis(value, zero=free, infinite=free))
             except ValueError as error:
                 raise InvalidInput(f"{name}: {error}") from None
+
+    def part(self, building: IntArray, stiffness: IntArray, slip: IntArray) -> BuildingGrid:
+        """Return the grid of these positions along each axis."""
+        return BuildingGrid(
+            {self.names[k]: self.buildings[k] for k in building},
+            self.stiffness_scale[stiffness],
+            self.slip_scale[slip],
+        )
 
     @property
     def n_storeys(self) -> int:

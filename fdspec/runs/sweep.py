@@ -25,7 +25,7 @@ from fdspec.runs.cube import assemble, chosen, named
 from fdspec.runs.pilot import probed
 from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.progress import Shown
-from fdspec.scheduling.task import Task, plan
+from fdspec.scheduling.task import Task, plan, require_per_task
 from fdspec.scheduling.threads import fan_out
 from fdspec.variables import CUBE, STUDY_DIMS
 
@@ -50,6 +50,9 @@ BRACED: Final = {
     "braced_peak_base_shear": "peak_base_shear",
 }
 """Output over (record, stiffness_ratio, period) -> what it is where the damper never slips."""
+
+COLUMNS: Final = ("stiffness_ratio", "period")
+"""The dims of a sweep's columns, the second fastest; a column is all pretensions of a pair."""
 
 RESPONSES: Final = tuple(v.name for v in CUBE.values() if v.dims == STUDY_DIMS and v.name not in DEMANDS)
 _KNOWN: Final = (*RESPONSES, *BARE, *BRACED)
@@ -218,6 +221,7 @@ def sweep(
         },
         command="fdspec.sweep",
     )
+    require_per_task(columns_per_task, "columns_per_task")
     if store is not None:
         from fdspec.runs.resumable import sweep_into
 
@@ -227,10 +231,11 @@ def sweep(
             [CUBE[name] for name in wanted],
             partial(_block, grid, run, wanted),
             fan,
+            items=COLUMNS,
             seconds=sum(seconds)
             if columns_per_task
             else sum(probed(motions, grid, certify, bool(strain), other)),
-            columns_per_task=columns_per_task,
+            items_per_task=columns_per_task,
             restart=restart,
         )
     tasks = plan(n_sr * n_t, seconds, columns_per_task, "columns_per_task")

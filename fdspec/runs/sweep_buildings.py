@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import logging
 import math
+import os
+import time
 from collections.abc import Iterable, Sequence
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -20,7 +23,7 @@ from fdspec.runs.cost import seconds_of_history
 from fdspec.runs.cube import assemble, chosen, named
 from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.progress import Shown
-from fdspec.scheduling.task import Task, cores, plan
+from fdspec.scheduling.task import Task, cores, plan, require_per_task
 from fdspec.scheduling.threads import fan_out
 from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS, demand_variables
 
@@ -34,6 +37,15 @@ LONG: Final = 60.0
 """s of work above which it is told what a stop would lose."""
 
 log = logging.getLogger(__name__)
+
+CELLS: Final = BUILDING_DIMS[1:]
+"""The dims of a record's histories, the last fastest."""
+
+SAMPLE: Final = 8
+"""Histories that are computed to see what all take."""
+
+WINDOW: Final = 400
+"""Samples of the record that they are computed under."""
 
 LIMITS: Final = ("elastic_acceleration", "braced_acceleration")
 DEMANDS: Final = tuple(v.name for v in demand_variables(()))
@@ -56,6 +68,8 @@ def sweep_buildings(
     scheduler: str = "threads",
     cells_per_task: int | None = None,
     client: Client | None = None,
+    store: str | os.PathLike[str] | None = None,
+    restart: bool = False,
     progress: Shown = False,
 ) -> xr.Dataset:
     """Compute the cube of buildings: peaks of every storey over record, building and two factors on dampers.
@@ -89,6 +103,11 @@ def sweep_buildings(
         Histories of one task; about 0.2 s of work unless given.  No result depends on it.
     client : distributed.Client, optional
         Any cluster of dask.distributed, in place of threads here.
+    store : path, optional
+        A Zarr store, ``cube.zarr``, into which the workers write block by block what they compute.  When it
+        is there, from a sweep that was stopped, only what is missing is computed.
+    restart : bool
+        Whether a store that is there is removed first.
     progress : bool or callable
         Show a bar on stderr where it is a terminal or a notebook's; or call this with (done, total).
 
@@ -104,11 +123,13 @@ def sweep_buildings(
     ------
     InvalidInput
         For an argument that cannot be used, by name and value.
+    StoreError
+        For a store that holds another sweep, with what differs, or that cannot be written.
 
     Notes
     -----
-    Results are held in memory until the end: a sweep that is stopped loses them.  Where that is more than a
-    minute of work a warning is logged.
+    Without a store, results are held in memory until the end: a sweep that is stopped loses them.  Where that
+    is more than a minute of work a warning is logged.
 
     The equations of motion are the study's (19) to (25).  Of the limits that ride along,
     ``elastic_acceleration`` is the frame without braces.  A damper that slides freely is another
@@ -125,35 +146,20 @@ def sweep_buildings(
     """
     grid = BuildingGrid(buildings, stiffness_scale, slip_scale)
     motions = named(motions)
-    known = (*OUTPUTS, *_demands(grid))
-    wanted = chosen(outputs, known, certify)
+    require_per_task(cells_per_task, "cells_per_task")
+    wanted = chosen(outputs, known_outputs(grid), certify)
     histories = _ends(grid)[-1 if set(LIMITS) & set(wanted) else 0]
-    what = f"a sweep of {len(motions) * histories:.4g} histories"
-    refuse_large(8.0 * len(motions) * histories * grid.n_storeys * 2 * len(wanted), what)
-    seconds = [
-        histories
-        * max(seconds_of_history(building, motion.dt, motion.n) for building in grid.buildings)
-        * math.sqrt(max(1.0, float(grid.stiffness_scale.mean())))
-        for motion in motions
-    ]
-    refuse_long(sum(seconds), SWEEP_HOURS, what)
+    refuse_endless(motions, grid, wanted, store)
+    seconds = _seconds(motions, grid, histories)
     warn_of_units(
         motions,
         period=[building.bare_periods[0] for building in grid.buildings],
         slip_force=grid.slip_force,
         floor_mass=[building.floor_mass.min() for building in grid.buildings],
     )
-    tasks = plan(histories, seconds, cells_per_task, "cells_per_task")
-    if (expected := sum(seconds) / cores()) > LONG:
-        log.warning(
-            "about %.0f min of work are held in memory until the end, and lost when it is stopped; sweep a "
-            "few buildings or records at a time, and save each",
-            expected / 60.0,
-        )
-    parts = fan_out(
-        partial(_run, grid, certify),
-        motions,
-        tasks,
+    fan = partial(
+        fan_out,
+        motions=motions,
         each=1,
         warm=partial(_warm, grid),
         workers=workers,
@@ -161,23 +167,138 @@ def sweep_buildings(
         client=client,
         progress=progress,
     )
-    return assemble(
-        _variables(grid, len(motions), tasks, parts, wanted),
-        _axes(grid),
-        BUILDING_CUBE,
-        motions,
+    cube_of = partial(
+        assemble,
+        axes=_axes(grid),
+        registry=BUILDING_CUBE,
+        motions=motions,
         title="Peak response of buildings with friction dampers",
-        parameters={
-            "buildings": {
-                name: building.parameters for name, building in zip(grid.names, grid.buildings, strict=True)
-            },
-            "stiffness_scale": grid.stiffness_scale,
-            "slip_scale": grid.slip_scale,
-            "certify": certify,
-            "outputs": list(wanted),
-        },
+        parameters=parameters_of(grid, wanted, certify),
         command="fdspec.sweep_buildings",
     )
+    if store is not None:
+        from fdspec.runs.resumable import sweep_into
+
+        return sweep_into(
+            store,
+            cube_of({}),
+            [BUILDING_CUBE[name] for name in wanted],
+            partial(_block, grid, certify, wanted),
+            fan,
+            items=CELLS,
+            seconds=sum(seconds),
+            items_per_task=cells_per_task,
+            restart=restart,
+        )
+    tasks = plan(histories, seconds, cells_per_task, "cells_per_task")
+    if (expected := sum(seconds) / cores()) > LONG:
+        log.warning(
+            "about %.0f min of work are held in memory until the end, and lost when it is stopped; with a "
+            "store, store='cube.zarr', what is finished is kept",
+            expected / 60.0,
+        )
+    parts = fan(partial(_run, grid, certify), tasks=tasks)
+    return cube_of(_variables(grid, _rows(grid), len(motions), tasks, parts, wanted))
+
+
+def known_outputs(grid: BuildingGrid) -> tuple[str, ...]:
+    """Return what can be computed of these buildings: of devices, where there are some."""
+    return (*OUTPUTS, *_demands(grid))
+
+
+def parameters_of(grid: BuildingGrid, wanted: Sequence[str], certify: bool) -> dict[str, object]:
+    """Return all that the cube of a grid depends on beside the records."""
+    return {
+        "buildings": {
+            name: building.parameters for name, building in zip(grid.names, grid.buildings, strict=True)
+        },
+        "stiffness_scale": grid.stiffness_scale,
+        "slip_scale": grid.slip_scale,
+        "certify": certify,
+        "outputs": list(wanted),
+    }
+
+
+def bytes_of(motions: Sequence[GroundMotion], grid: BuildingGrid, outputs: Iterable[str]) -> dict[str, int]:
+    """Bytes of each variable of the cube."""
+    lengths = dict(zip(BUILDING_DIMS, (len(motions), *grid.shape), strict=True)) | {"storey": grid.n_storeys}
+    return {
+        name: math.prod(lengths[dim] for dim in BUILDING_CUBE[name].dims)
+        * np.dtype(BUILDING_CUBE[name].dtype).itemsize
+        for name in outputs
+    }
+
+
+def refuse_endless(
+    motions: Sequence[GroundMotion],
+    grid: BuildingGrid,
+    outputs: Iterable[str],
+    store: str | os.PathLike[str] | None,
+) -> None:
+    """Raise InvalidInput for a sweep that this machine cannot hold or that takes longer than the limit."""
+    outputs = tuple(outputs)
+    histories = _ends(grid)[-1 if set(LIMITS) & set(outputs) else 0]
+    what = f"a sweep of {len(motions) * histories:.4g} histories"
+    size = float(sum(bytes_of(motions, grid, outputs).values()))
+    if store is None:
+        refuse_large(2.0 * size, what)  # once as the tasks return it, once as the cube
+    elif not Path(store).exists():
+        refuse_large(size, what, folder=Path(store).absolute().parent)
+    refuse_long(sum(_seconds(motions, grid, histories)), SWEEP_HOURS, what)
+
+
+def measured(motions: Sequence[GroundMotion], grid: BuildingGrid, certify: bool = True) -> float:
+    """Core seconds that a sweep takes, from a few of its histories, computed here.
+
+    They are taken around the strongest shaking, so that it is rather too much.
+    """
+    _warm(grid)
+    longest = max(motions, key=lambda motion: motion.n)
+    peak = int(np.argmax(np.abs(longest.acceleration)))
+    first = max(0, min(peak - WINDOW // 4, longest.n - WINDOW))
+    window = GroundMotion(longest.acceleration[first : first + WINDOW], longest.dt, name="window")
+    cells = _ends(grid)[0]
+    count = min(cells, SAMPLE)
+    chosen_cells = ((np.arange(count) + 0.5) * cells / count).astype(np.int64)
+    _run(grid, certify, chosen_cells[:1], window)  # loads the kernels
+    started = time.thread_time()
+    _run(grid, certify, chosen_cells, window)
+    each = (time.thread_time() - started) / (count * window.n)
+    return each * sum(motion.n for motion in motions) * _ends(grid)[-1]
+
+
+def rough_seconds(motions: Sequence[GroundMotion], grid: BuildingGrid) -> float:
+    """Core time of all histories, s, roughly."""
+    return sum(_seconds(motions, grid, _ends(grid)[-1]))
+
+
+def _seconds(motions: Sequence[GroundMotion], grid: BuildingGrid, histories: int) -> list[float]:
+    """Core time of so many histories under each motion, s, roughly."""
+    return [
+        histories
+        * max(seconds_of_history(building, motion.dt, motion.n) for building in grid.buildings)
+        * math.sqrt(max(1.0, float(grid.stiffness_scale.mean())))
+        for motion in motions
+    ]
+
+
+def _block(
+    grid: BuildingGrid, certify: bool, wanted: Sequence[str], cells: IntArray, motion: GroundMotion
+) -> dict[str, NDArray[np.generic]]:
+    """Compute the part of the cube that these cells, a block of all three axes, make up."""
+    b, k, s = map(np.unique, np.unravel_index(cells, grid.shape))
+    # What lacks an axis is computed with the block that comes first along it.
+    first = {"building": True, "stiffness_scale": k[0] == 0, "slip_scale": s[0] == 0}
+    mine = [
+        name for name in wanted if all(first[dim] for dim in CELLS if dim not in BUILDING_CUBE[name].dims)
+    ]
+    items = [cells]
+    if set(LIMITS) & set(mine):
+        end, braced, _ = _ends(grid)
+        items += [end + (b[:, np.newaxis] * grid.shape[1] + k).ravel(), braced + b]
+    part, numbers = grid.part(b, k, s), np.concatenate(items)
+    task = Task(0, np.arange(numbers.size))
+    return _variables(part, _rows(grid), 1, [task], [_run(grid, certify, numbers, motion)], mine)
 
 
 def _ends(grid: BuildingGrid) -> tuple[int, int, int]:
@@ -303,6 +424,7 @@ def _demands(grid: BuildingGrid) -> tuple[str, ...]:
 
 def _variables(
     grid: BuildingGrid,
+    rows: Sequence[str],
     n_r: int,
     tasks: Sequence[Task],
     parts: Sequence[tuple[FloatArray, FloatArray]],
@@ -311,7 +433,6 @@ def _variables(
     """Put what the tasks returned where it stands in the cube."""
     from fdspec.kernels.frame.results import TOTALS
 
-    rows = _rows(grid)
     cells, braced, bare = _ends(grid)
     histories = 1 + max(int(task.items.max()) for task in tasks)
     by_storey = np.empty((len(rows), n_r, histories, grid.n_storeys))

@@ -35,6 +35,12 @@ def cores() -> int:
     return os.cpu_count() or 1
 
 
+def require_per_task(per_task: int | None, argument: str) -> None:
+    """Raise InvalidInput unless a task has at least one item."""
+    if per_task is not None and per_task < 1:
+        raise InvalidInput(f"{argument} must be at least 1, got {per_task}")
+
+
 def plan(items: int, seconds: Sequence[float], per_task: int | None, argument: str) -> list[Task]:
     """Share out the items of every record.
 
@@ -42,8 +48,7 @@ def plan(items: int, seconds: Sequence[float], per_task: int | None, argument: s
     it in this argument.  Each task takes every n-th item, so that neighbours, which cost about the same, are
     spread over tasks.
     """
-    if per_task is not None and per_task < 1:
-        raise InvalidInput(f"{argument} must be at least 1, got {per_task}")
+    require_per_task(per_task, argument)
     tasks = []
     for record, cost in enumerate(seconds):
         if per_task is None:

@@ -68,10 +68,12 @@ def check(path: str | os.PathLike[str]) -> Iterator[Finding]:
         yield Finding("checksums", False, str(error))
         return
     with cube:
-        whole = _guarded(
-            "checksums", _store_checksums if chunks.is_store(path) else _file_checksums, path, cube
-        )
         registry = _registry(cube)
+        whole = (
+            _guarded("checksums", _store_checksums, path, cube, registry or CUBE)
+            if chunks.is_store(path)
+            else _guarded("checksums", _file_checksums, path, cube)
+        )
         if registry is None:
             yield Finding("schema", None, "neither cube nor history: CF and checksums alone are looked at")
             yield _guarded("CF", _conventions, path, cube)
@@ -192,9 +194,9 @@ def _axes(cube: xr.Dataset) -> Finding:
     )
 
 
-def _store_checksums(path: str | os.PathLike[str], cube: xr.Dataset) -> Finding:
+def _store_checksums(path: str | os.PathLike[str], cube: xr.Dataset, registry: Registry) -> Finding:
     blocks, _ = chunks.described(path)
-    variables = [CUBE[str(name)] for name in cube.data_vars if name in CUBE]
+    variables = [registry[str(name)] for name in cube.data_vars if name in registry]
     missing, damaged = 0, []
     for _, state, files in chunks.states(path, blocks, variables):
         missing += state is chunks.State.MISSING

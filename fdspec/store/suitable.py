@@ -24,7 +24,10 @@ def require_cube(dataset: xr.Dataset, path: str | os.PathLike[str], what: str) -
     needs = f"{what} need a cube of single-storey frames, as fdspec sweep writes it"
     lacking = [dim for dim in STUDY_DIMS if dim not in dataset.dims]
     if "building" in dataset.dims:
-        raise InvalidInput(f"{os.fspath(path)} is a cube of buildings; {needs}")
+        raise InvalidInput(
+            f"{os.fspath(path)} is a cube of buildings; {needs} without them; 'fdspec figures' "
+            "draws its profiles, 'fdspec summary' and 'fdspec export' give its numbers"
+        )
     if "time" in dataset.dims:
         raise InvalidInput(f"{os.fspath(path)} is a history; {needs}")
     if lacking:
