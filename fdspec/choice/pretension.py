@@ -158,7 +158,7 @@ def best_pretension(
         "stretch": np.arange(1, variables["bands"].shape[-2] + 1),
         "bound": ["start", "end"],
     }
-    parameters = {name: getattr(grid, name) for name in grid.__dataclass_fields__ if name != "pretension"}
+    parameters = {name: value for name, value in grid.parameters.items() if name != "pretension"}
     return assemble(
         variables,
         axes,

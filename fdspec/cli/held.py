@@ -35,7 +35,7 @@ def holds(path: Path, study: Study, motions: Sequence[GroundMotion]) -> bool:
         return False
     outputs = OUTPUTS if study.outputs is None else study.outputs
     parameters = {
-        **{name: getattr(study.grid, name) for name in study.grid.__dataclass_fields__},
+        **study.grid.parameters,
         "certify": study.certify,
         "outputs": list(chosen(outputs, (*OUTPUTS, *ON_REQUEST), study.certify)),
     }

@@ -17,7 +17,7 @@ from fdspec.units import G
 if TYPE_CHECKING:
     import xarray as xr
 
-AXES = ("record", "stiffness_ratio", "pretension", "period")
+AXES = ("record", "intensity", "stiffness_ratio", "pretension", "period")
 
 MANY = 100
 """Records; of more no table is shown."""
@@ -33,8 +33,12 @@ SHORT = 0.6
 
 def summary(cube: xr.Dataset, path: Path, elapsed: float) -> str:
     """Return a table of the records and where the cube is."""
-    axes = " x ".join(counted(cube.sizes[dim], dim.replace("_", " ")) for dim in AXES)
-    histories = counted(math.prod(cube.sizes[dim] for dim in AXES), "history", "histories")
+    sizes = {dim: cube.sizes[dim] for dim in AXES if dim in cube.dims}
+    axes = " x ".join(
+        counted(size, dim.replace("_", " "), *(["intensities"] if dim == "intensity" else []))
+        for dim, size in sizes.items()
+    )
+    histories = counted(math.prod(sizes.values()), "history", "histories")
     written = f"{path} ({size(_bytes(path))})"
     lines = [f"{written}: {axes} = {histories}, in {seconds(elapsed)}"]
     if "peak_acceleration" in cube and cube.sizes["record"] <= MANY:

@@ -41,6 +41,8 @@ class Grid:
     normal_force_factor : float
         Newtons on the sliding surface for each newton of `pretension`: 2 n_b where `pretension` is the force
         of one of n_b bolts that clamp two faces.
+    intensity : array_like, shape (n_i,), optional
+        Factors on the ground motions; without them the cube has no such axis.
 
     Raises
     ------
@@ -66,6 +68,7 @@ class Grid:
     kinetic_friction_coefficient: float | None = None
     normal_force_factor: float = 1.0
     brace_damping_ratio: float = 0.0
+    intensity: FloatArray | None = None
 
     def __post_init__(self) -> None:
         mistakes = []
@@ -93,6 +96,17 @@ class Grid:
         return _scaled(self.pretension, coefficient * self.normal_force_factor)
 
     @property
+    def intensities(self) -> FloatArray:
+        """(n_i,) factors on the ground motions, a single 1 where there is no such axis."""
+        return np.ones(1) if self.intensity is None else self.intensity
+
+    @property
+    def parameters(self) -> dict[str, Any]:
+        """All fields by name, the intensity only where it is an axis: how the cube came about."""
+        given = {name: getattr(self, name) for name in GRID_FIELDS}
+        return {name: value for name, value in given.items() if name != "intensity" or value is not None}
+
+    @property
     def shape(self) -> tuple[int, int, int]:
         """Lengths of (stiffness_ratio, pretension, period), the cube's order of axes."""
         return self.stiffness_ratio.size, self.pretension.size, self.period.size
@@ -101,7 +115,7 @@ class Grid:
     def size(self) -> int:
         """Histories of one record."""
         n_sr, n_f, n_t = self.shape
-        return n_sr * n_f * n_t
+        return self.intensities.size * n_sr * n_f * n_t
 
     @classmethod
     def study(cls) -> "Grid":
@@ -217,4 +231,5 @@ _CHECKS: Final[Mapping[str, Callable[[object], FloatArray | float | None]]] = {
     "kinetic_friction_coefficient": _optional_number,
     "normal_force_factor": _number,
     "brace_damping_ratio": lambda value: _number(value, zero=True, below=1.0),
+    "intensity": lambda value: None if value is None else axis(value),
 }

@@ -112,7 +112,8 @@ def _sweep_into(
             log.warning("%s of %s was damaged and is mended", name, path)
         log.info("%s: going on where it stopped", path)
     else:
-        blocks = plan_blocks({dim: frame.sizes[dim] for dim in _DIMS}, seconds, columns_per_task)
+        sizes = {dim: frame.sizes[dim] for dim in _DIMS if dim in frame.dims}
+        blocks = plan_blocks(sizes, seconds, columns_per_task)
         chunks.create(path, frame, variables, blocks, identity)
         log.info("%s: made, %d blocks of %s", path, len(blocks), dict(blocks.edges))
     todo = list(_unfinished(path, blocks, variables))
@@ -137,12 +138,12 @@ def plan_blocks(sizes: Mapping[str, int], seconds: float, columns_per_task: int 
     """Cut the cube, whose work takes so many seconds of core time, into blocks of one record each."""
     if columns_per_task is not None and columns_per_task < 1:
         raise InvalidInput(f"columns_per_task must be at least 1, got {columns_per_task}")
-    total = float(np.prod([sizes[dim] for dim in _DIMS], dtype=float))
+    total = float(np.prod(list(sizes.values()), dtype=float))
     if columns_per_task is None:
         length = min(LONGEST, max(SHORTEST, seconds / (SHARE * cores())))
         cells = min(LARGEST, total * length / seconds)
     else:
-        cells = columns_per_task * sizes["pretension"]
+        cells = columns_per_task * sizes["pretension"] * sizes.get("intensity", 1)
     return cut(sizes, COLUMNS, cells, singly=("record",))
 
 
@@ -178,7 +179,7 @@ def _other_records(there: Mapping[str, str], here: Mapping[str, str]) -> list[st
     ]
 
 
-_DIMS: Final = ("record", "stiffness_ratio", "pretension", "period")
+_DIMS: Final = ("record", "intensity", "stiffness_ratio", "pretension", "period")
 
 
 def _agreed(path: Path, identity: Mapping[str, Any]) -> Blocks:
@@ -227,7 +228,8 @@ def _fill(
 ) -> int:
     """Compute a block and write it; return how many of its histories have a status other than ok."""
     slow, fast = np.unravel_index(int(columns[0]), [blocks.sizes[dim] for dim in COLUMNS])
-    at = {"record": records.index(motion.name), COLUMNS[0]: int(slow), "pretension": 0, COLUMNS[1]: int(fast)}
+    at = dict.fromkeys(blocks.sizes, 0)
+    at |= {"record": records.index(motion.name), COLUMNS[0]: int(slow), COLUMNS[1]: int(fast)}
     values = compute(columns, motion)
     chunks.write(path, blocks, blocks.number(at), values, variables)
     return int(np.count_nonzero(values["status"]))

@@ -29,7 +29,7 @@ from fdspec.model.toml_lines import key_lines, line_of, parsed
 from fdspec.records import catalogue, load_record, read_record
 from fdspec.variables import CUBE
 
-AXES: Final = ("stiffness_ratio", "pretension", "period")
+AXES: Final = ("stiffness_ratio", "pretension", "period", "intensity")
 
 STUDY_RECORDS: Final = ("FSR1", "FSR2", "FSR3", "FMR1", "FMR2", "FMR3", "FHR1", "FHR2", "FHR3")
 
@@ -166,6 +166,8 @@ stiffness_ratio = {_axis_text(grid.stiffness_ratio)}
 pretension = {_axis_text(grid.pretension)}
 # s, of the frame without its brace.
 period = {_axis_text(grid.period)}
+# Factors on all records, a further axis of the cube; left out, there is none.
+{"# intensity = [0.5, 1.0, 2.0]" if grid.intensity is None else f"intensity = {_axis_text(grid.intensity)}"}
 
 # kg
 floor_mass = {grid.floor_mass!r}

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, cast
 
 import numpy as np
 import xarray as xr
@@ -25,7 +25,7 @@ from fdspec.runs.cube import assemble, chosen, named
 from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.threads import Task, cores, fan_out, plan
-from fdspec.variables import CUBE, STUDY_DIMS
+from fdspec.variables import CUBE, INTENSITY_CUBE, STUDY_DIMS, Registry
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -83,6 +83,7 @@ def sweep(
     kinetic_friction_coefficient: float | None = None,
     normal_force_factor: float = 1.0,
     brace_damping_ratio: float = 0.0,
+    intensity: ArrayLike | None = None,
     outputs: Iterable[str] | None = None,
     certify: bool = True,
     workers: int | None = None,
@@ -113,6 +114,9 @@ def sweep(
         Of the frame without its brace, and of the brace on its own.
     friction_coefficient, kinetic_friction_coefficient, normal_force_factor : float
         Slip force = friction_coefficient * normal_force_factor * pretension.
+    intensity : array_like, optional
+        Factors on the ground motions, positive, strictly increasing: adds the dim ``intensity`` after
+        ``record``.  What is told of the records, ``pga`` among it, stays that of factor 1.
     outputs : iterable of str, optional
         Variables of the cube; unless given, all but those of `ON_REQUEST`.
     certify : bool
@@ -138,7 +142,7 @@ def sweep(
     -------
     xarray.Dataset
         Dims (record, stiffness_ratio, pretension, period); variables, units and meanings are those
-        of `fdspec.variables.CUBE`.  With a store it is read from there when it is used.
+        of `fdspec.variables.CUBE`, with intensities of `fdspec.variables.INTENSITY_CUBE`.  With a store it is read from there when it is used.
 
     Raises
     ------
@@ -151,6 +155,10 @@ def sweep(
     -----
     The frame is the study's example (its Figure 7): k_f = floor_mass (2 pi / period)^2,
     k_d = stiffness_ratio k_f; equations (2) to (7).
+
+    A frame whose only strength is its slip force F is the same frame at every intensity s: the response to
+    s a_g under F is s times that to a_g under F / s, energies s^2 times, changes of phase the same.  So the
+    exact method computes intensities as further slip forces; other methods run the scaled record.
     """
     grid = Grid(
         stiffness_ratio=stiffness_ratio,  # type: ignore[arg-type]
@@ -163,6 +171,7 @@ def sweep(
         kinetic_friction_coefficient=kinetic_friction_coefficient,
         normal_force_factor=normal_force_factor,
         brace_damping_ratio=brace_damping_ratio,
+        intensity=intensity,  # type: ignore[arg-type]
     )
     motions = named(motions)
     wanted = chosen(OUTPUTS if outputs is None else outputs, (*OUTPUTS, *ON_REQUEST), certify)
@@ -178,14 +187,14 @@ def sweep(
     fan = partial(
         fan_out,
         motions=motions,
-        each=n_f,
+        each=n_f * grid.intensities.size,
         warm=_warm,
         workers=workers,
         scheduler=scheduler,
         client=client,
         progress=progress,
     )
-    parameters = {name: getattr(grid, name) for name in grid.__dataclass_fields__}
+    registry = registry_for(grid)
     cube_of = partial(
         assemble,
         axes={
@@ -194,12 +203,13 @@ def sweep(
             "period": grid.period,
             "slip_force": grid.slip_force,
             "kinetic_slip_force": grid.kinetic_slip_force,
+            **({} if grid.intensity is None else {"intensity": grid.intensity}),
         },
-        registry=CUBE,
+        registry=registry,
         motions=motions,
         title="Peak response of single-storey frames with friction dampers",
         parameters={
-            **parameters,
+            **grid.parameters,
             **({} if other is None else other.parameters),
             "certify": certify,
             "outputs": list(wanted),
@@ -212,7 +222,7 @@ def sweep(
         return sweep_into(
             store,
             cube_of({}),
-            [CUBE[name] for name in wanted],
+            [registry[name] for name in wanted],
             partial(_block, grid, run, wanted),
             fan,
             seconds=sum(seconds)
@@ -254,7 +264,7 @@ def _measured(
             started = time.thread_time()
             _run_columns(part, certify, strain, other, columns, motion)
             spent += sign * (time.thread_time() - started)
-        histories += columns.size * pretension.size
+        histories += columns.size * pretension.size * grid.intensities.size
         if spent > PROBE:
             break
     each = max(spent / (histories * window.n), SECONDS_PER_SAMPLE / 4.0)
@@ -271,10 +281,17 @@ def bytes_of(motions: Sequence[GroundMotion], grid: Grid, outputs: Iterable[str]
     """Bytes of each variable of the cube."""
     n_sr, n_f, n_t = grid.shape
     lengths = {"record": len(motions), "stiffness_ratio": n_sr, "pretension": n_f, "period": n_t}
+    lengths["intensity"] = grid.intensities.size
+    registry = registry_for(grid)
     return {
-        name: math.prod(lengths[dim] for dim in CUBE[name].dims) * np.dtype(CUBE[name].dtype).itemsize
+        name: math.prod(lengths[dim] for dim in registry[name].dims) * np.dtype(CUBE[name].dtype).itemsize
         for name in outputs
     }
+
+
+def registry_for(grid: Grid) -> Registry:
+    """Return the variables of this grid's cube."""
+    return CUBE if grid.intensity is None else INTENSITY_CUBE
 
 
 def refuse_endless(
@@ -302,7 +319,7 @@ def timed(grid: Grid, motion: GroundMotion, certify: bool = True) -> tuple[float
     columns = np.arange(grid.stiffness_ratio.size * grid.period.size)
     started = time.thread_time()
     results, _, _ = _run_columns(grid, certify, False, None, columns, motion)
-    return time.thread_time() - started, int(results[:, :, RESULTS.index("transitions")].sum())
+    return time.thread_time() - started, int(results[..., RESULTS.index("transitions")].sum())
 
 
 def _warm() -> None:
@@ -334,13 +351,54 @@ def _run_columns(
 ) -> Columns:
     """Integrate some (stiffness ratio, period) pairs: all pretensions, never slipping, without brace.
 
-    Each in the order of RESULTS; where wanted, those of STRAIN follow, save of braced frames.
+    Each at every intensity, (m, n_i, n_f, results), (m, n_i, results), (bare, n_i, results), in the order of
+    RESULTS; where wanted, those of STRAIN follow, save of braced frames.
     """
+    levels, slip_force, kinetic = grid.intensities, grid.slip_force, grid.kinetic_slip_force
+    run = partial(_run_forces, grid, certify, strain, other, columns)
+    if scales(other):
+        # R(s a, F) = s R(a, F / s): further slip forces of the same frames under the same motion.
+        each = levels[:, np.newaxis]
+        found, braced, bare = run((slip_force / each).ravel(), (kinetic / each).ravel(), motion)
+        found = found.reshape(columns.size, levels.size, slip_force.size, -1)
+        parts = (found, braced[:, np.newaxis], bare[:, np.newaxis])
+        return cast("Columns", tuple(part * _growth(levels, part) for part in parts))
+    runs = [run(slip_force, kinetic, motion if s == 1.0 else motion.times(s)) for s in levels.tolist()]
+    return cast("Columns", tuple(np.stack(part, axis=1) for part in zip(*runs, strict=True)))
+
+
+def scales(other: Method | None) -> bool:
+    """Whether all strengths of a sweep's frames, and its method, scale with the motion.
+
+    Other methods have tolerances in absolute terms.
+    """
+    return other is None
+
+
+def _growth(levels: FloatArray, part: FloatArray) -> FloatArray:
+    """Return by what each result of `part` (.., n_i, .., results) grows from intensity 1 to each level."""
+    from fdspec.kernels.storey.history import RESULTS
+
+    degrees = np.array([CUBE[name].degree for name in (*RESULTS, *STRAIN)[: part.shape[-1]]], dtype=float)
+    growth: FloatArray = levels[:, np.newaxis] ** degrees
+    return growth[:, np.newaxis] if part.ndim == 4 else growth
+
+
+def _run_forces(
+    grid: Grid,
+    certify: bool,
+    strain: bool,
+    other: Method | None,
+    columns: IntArray,
+    slip_force: FloatArray,
+    kinetic: FloatArray,
+    motion: GroundMotion,
+) -> Columns:
+    """Integrate the same under these slip forces, whatever the intensity."""
     from fdspec.engines.batch import integrate_columns
 
     frames = _frames(grid, columns)
     exact = slice(None) if other is None else slice(0)
-    slip_force, kinetic = grid.slip_force, grid.kinetic_slip_force
     braced, results = integrate_columns(frames, slip_force[exact], kinetic[exact], motion, certify=certify)
     if other is not None:
         results = integrate_by_method(other, frames, slip_force, kinetic, motion)
@@ -351,7 +409,7 @@ def _run_columns(
         from fdspec.engines.strain import strain_of_columns
 
         never = np.array([np.inf]), np.array([0.0])
-        added = strain_of_columns(frames, grid.slip_force, grid.kinetic_slip_force, motion)
+        added = strain_of_columns(frames, slip_force, kinetic, motion)
         results = np.concatenate([results, added], axis=-1)
         free = np.concatenate([free, strain_of_columns(bare, *never, motion)[:, 0]], axis=-1)
     return results, braced, free
@@ -383,17 +441,21 @@ def _variables(
 
     rows = (*RESULTS, *STRAIN)
     n_sr, n_f, n_t = grid.shape
+    n_i = grid.intensities.size
     responses: dict[str, NDArray[Any]] = {
-        name: np.empty((n_r, n_sr, n_f, n_t), dtype=CUBE[name].dtype) for name in wanted if name in rows
+        name: np.empty((n_r, n_i, n_sr, n_f, n_t), dtype=CUBE[name].dtype) for name in wanted if name in rows
     }
-    bare: dict[str, NDArray[Any]] = {name: np.empty((n_r, n_t)) for name in wanted if name in BARE}
-    braced: dict[str, NDArray[Any]] = {name: np.empty((n_r, n_sr, n_t)) for name in wanted if name in BRACED}
+    bare: dict[str, NDArray[Any]] = {name: np.empty((n_r, n_i, n_t)) for name in wanted if name in BARE}
+    braced: dict[str, NDArray[Any]] = {
+        name: np.empty((n_r, n_i, n_sr, n_t)) for name in wanted if name in BRACED
+    }
     for (r, columns), (out, held, free) in zip(tasks, parts, strict=True):
         ratio, period = np.unravel_index(columns, (n_sr, n_t))
         for name, values in responses.items():
-            values[r, ratio, :, period] = out[:, :, rows.index(name)]
+            values[r, :, ratio, :, period] = out[..., rows.index(name)]
         for name, values in braced.items():
-            values[r, ratio, period] = held[:, rows.index(BRACED[name])]
+            values[r, :, ratio, period] = held[..., rows.index(BRACED[name])]
         for name, values in bare.items():
-            values[r, columns[columns < n_t]] = free[:, rows.index(BARE[name])]
-    return responses | bare | braced
+            values[r, :, columns[columns < n_t]] = free[..., rows.index(BARE[name])]
+    found = responses | bare | braced
+    return found if grid.intensity is not None else {name: values[:, 0] for name, values in found.items()}

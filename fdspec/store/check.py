@@ -29,6 +29,9 @@ from fdspec.variables import (
     BUILDING_CUBE,
     CUBE,
     HISTORY,
+    INTENSITY,
+    INTENSITY_BUILDING_CUBE,
+    INTENSITY_CUBE,
     NOT_COMPUTED,
     STATUSES,
     STUDY_DIMS,
@@ -105,9 +108,9 @@ def _registry(cube: xr.Dataset) -> Registry | None:
     """Return what the dataset should hold; None where it is no cube and no history."""
     dims = set(cube.dims)
     if "building" in dims and "slip_scale" in dims:
-        return BUILDING_CUBE
+        return INTENSITY_BUILDING_CUBE if INTENSITY in dims else BUILDING_CUBE
     if len(dims & set(STUDY_DIMS)) == len(STUDY_DIMS):
-        return CUBE
+        return INTENSITY_CUBE if INTENSITY in dims else CUBE
     return HISTORY if "time" in dims and "displacement" in cube.variables else None
 
 
@@ -194,7 +197,8 @@ def _axes(cube: xr.Dataset) -> Finding:
 
 def _store_checksums(path: str | os.PathLike[str], cube: xr.Dataset) -> Finding:
     blocks, _ = chunks.described(path)
-    variables = [CUBE[str(name)] for name in cube.data_vars if name in CUBE]
+    registry = _registry(cube) or CUBE
+    variables = [registry[str(name)] for name in cube.data_vars if name in registry]
     missing, damaged = 0, []
     for _, state, files in chunks.states(path, blocks, variables):
         missing += state is chunks.State.MISSING
