@@ -49,9 +49,13 @@ def summary(cube: xr.Dataset, path: Path, elapsed: float) -> str:
 def _records_table(cube: xr.Dataset) -> str:
     """Table of the records, read one by one: the cube may be larger than memory."""
     wanted = cube[[name for name in ("peak_acceleration", "elastic_acceleration", "status") if name in cube]]
+    explained = []
+    if "intensity" in cube.dims:
+        wanted = wanted.sel(intensity=1.0, method="nearest")
+        explained.append(f"At intensity {wanted['intensity'].item():g}, as are the bests.")
     tables = [_columns(wanted.isel(record=[k]).load()) for k in range(cube.sizes["record"])]
     rows = [[cells[0] for _, cells in columns] for columns in tables]
-    explained = ["min, max: smallest and largest peak absolute acceleration of the floor."]
+    explained.append("min, max: smallest and largest peak absolute acceleration of the floor.")
     if "elastic_acceleration" in cube:
         explained.append(
             "Best damper for periods in a band: pretension (kN), stiffness ratio (SR), and peak acceleration "

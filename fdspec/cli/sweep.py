@@ -14,6 +14,7 @@ import click
 
 from fdspec.cli.echo import echo
 from fdspec.cli.held import holds
+from fdspec.cli.numbers_option import Numbers
 from fdspec.cli.output import force_option, free, is_there
 from fdspec.cli.record_options import file_options, named_records
 from fdspec.cli.run_options import STORE_SUFFIX, client_of, kept, logged, run_options, store_of
@@ -46,6 +47,13 @@ if TYPE_CHECKING:
 )
 @file_options
 @click.option(
+    "--intensity",
+    type=Numbers(),
+    metavar="X",
+    help="Factors on all records, a further axis: numbers with commas, LOW:HIGH:COUNT on a logarithmic "
+    "scale, or both.",
+)
+@click.option(
     "--raw", is_flag=True, help="Leave the catalogue's records as recorded, not scaled to the study's PGA."
 )
 @click.option("--no-certify", is_flag=True, help="Leave out the energy balance of each history; faster.")
@@ -66,6 +74,7 @@ def sweep(
     units: str | None,
     dt: float | None,
     channel: str | None,
+    intensity: list[float] | None,
     raw: bool,
     no_certify: bool,
     dry_run: bool,
@@ -99,6 +108,8 @@ def sweep(
     study = dataclasses.replace(
         study, scaled=study.scaled and not raw, certify=study.certify and not no_certify
     )
+    if intensity is not None:
+        study = dataclasses.replace(study, grid=dataclasses.replace(study.grid, intensity=intensity))
     if print_study:
         echo(study.to_toml(), nl=False)
         return
@@ -206,6 +217,7 @@ def _plan(study: Study, path: Path) -> str:
     return "\n".join(
         (
             f"records           {', '.join(motion.name for motion in motions)} ({grouped(samples)} samples)",
+            *([] if study.grid.intensity is None else [f"intensities       {study.grid.intensity.size}"]),
             f"stiffness ratios  {n_sr}",
             f"pretensions       {n_f}",
             f"periods           {n_t}",

@@ -142,7 +142,8 @@ def sweep(
     -------
     xarray.Dataset
         Dims (record, stiffness_ratio, pretension, period); variables, units and meanings are those
-        of `fdspec.variables.CUBE`, with intensities of `fdspec.variables.INTENSITY_CUBE`.  With a store it is read from there when it is used.
+        of `fdspec.variables.CUBE`, with intensities of `fdspec.variables.INTENSITY_CUBE`.  With a store it
+        is read from there when it is used.
 
     Raises
     ------

@@ -20,7 +20,7 @@ from fdspec.runs.cube import assemble, chosen, named
 from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.threads import Task, cores, fan_out, plan
-from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS
+from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS, INTENSITY_BUILDING_CUBE, Registry
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -44,6 +44,7 @@ def sweep_buildings(
     *,
     slip_scale: ArrayLike,
     stiffness_scale: ArrayLike,
+    intensity: ArrayLike | None = None,
     outputs: Iterable[str] | None = None,
     certify: bool = True,
     workers: int | None = None,
@@ -71,6 +72,9 @@ def sweep_buildings(
     stiffness_scale : array_like
         Factors on the stiffness of all braces, positive, strictly increasing.  A dashpot beside a brace
         goes with the square root: the brace keeps its damping ratio.  The frame's own damping stays.
+    intensity : array_like, optional
+        Factors on the ground motions, positive, strictly increasing: adds the dim ``intensity`` after
+        ``record``.  What is told of the records, ``pga`` among it, stays that of factor 1.
     outputs : iterable of str, optional
         Variables of the cube; all unless given.
     certify : bool
@@ -90,7 +94,8 @@ def sweep_buildings(
     -------
     xarray.Dataset
         Dims (record, building, stiffness_scale, slip_scale) and, for what each storey has of its own,
-        storey; variables, units and meanings are those of `fdspec.variables.BUILDING_CUBE`.
+        storey; variables, units and meanings are those of `fdspec.variables.BUILDING_CUBE`, with intensities
+        of `fdspec.variables.INTENSITY_BUILDING_CUBE`.
 
     Raises
     ------
@@ -115,10 +120,10 @@ def sweep_buildings(
     >>> dict(cube.peak_drift.sizes)
     {'record': 1, 'building': 1, 'stiffness_scale': 1, 'slip_scale': 2, 'storey': 2}
     """
-    grid = BuildingGrid(buildings, stiffness_scale, slip_scale)
+    grid = BuildingGrid(buildings, stiffness_scale, slip_scale, intensity)
     motions = named(motions)
     wanted = chosen(outputs, OUTPUTS, certify)
-    histories = _ends(grid)[-1 if set(LIMITS) & set(wanted) else 0]
+    histories = grid.intensities.size * _ends(grid)[-1 if set(LIMITS) & set(wanted) else 0]
     what = f"a sweep of {len(motions) * histories:.4g} histories"
     refuse_large(8.0 * len(motions) * histories * grid.n_storeys * 2 * len(wanted), what)
     seconds = [
@@ -142,7 +147,7 @@ def sweep_buildings(
             expected / 60.0,
         )
     parts = fan_out(
-        partial(_run, grid, certify),
+        partial(_run, grid, certify, histories // grid.intensities.size),
         motions,
         tasks,
         each=1,
@@ -155,7 +160,7 @@ def sweep_buildings(
     return assemble(
         _variables(grid, len(motions), tasks, parts, wanted),
         _axes(grid),
-        BUILDING_CUBE,
+        _registry(grid),
         motions,
         title="Peak response of buildings with friction dampers",
         parameters={
@@ -164,6 +169,7 @@ def sweep_buildings(
             },
             "stiffness_scale": grid.stiffness_scale,
             "slip_scale": grid.slip_scale,
+            **({} if grid.intensity is None else {"intensity": grid.intensity}),
             "certify": certify,
             "outputs": list(wanted),
         },
@@ -171,8 +177,12 @@ def sweep_buildings(
     )
 
 
+def _registry(grid: BuildingGrid) -> Registry:
+    return BUILDING_CUBE if grid.intensity is None else INTENSITY_BUILDING_CUBE
+
+
 def _ends(grid: BuildingGrid) -> tuple[int, int, int]:
-    """Where the histories of one record end: those of the cells, of braced buildings, of bare frames."""
+    """Where histories of a record at one intensity end: of cells, of braced buildings, of bare frames."""
     n_b, n_k, n_s = grid.shape
     cells = n_b * n_k * n_s
     return cells, cells + n_b * n_k, cells + n_b * n_k + n_b
@@ -207,15 +217,21 @@ def _warm() -> None:
 
 
 def _run(
-    grid: BuildingGrid, certify: bool, histories: IntArray, motion: GroundMotion
+    grid: BuildingGrid, certify: bool, each: int, histories: IntArray, motion: GroundMotion
 ) -> tuple[FloatArray, FloatArray]:
-    """Integrate some histories of a record: results by storey (m, rows, N) and totals (m, entries)."""
+    """Integrate some histories of a record: results by storey (m, rows, N) and totals (m, entries).
+
+    each: histories at one intensity; those of the first come first.
+    """
     from fdspec.engines.many_storeys import peaks_of
 
     cells = _ends(grid)[0]
+    levels, of_level = np.divmod(histories, each)
+    factors = {int(level): float(grid.intensities[level]) for level in np.unique(levels)}
+    shaking = {level: motion if s == 1.0 else motion.times(s) for level, s in factors.items()}
     results = [
-        peaks_of(_frame(grid, int(history)), motion, certify=certify and bool(history < cells))
-        for history in histories
+        peaks_of(_frame(grid, history), shaking[level], certify=certify and history < cells)
+        for level, history in zip(levels.tolist(), of_level.tolist(), strict=True)
     ]
     return np.stack([by_storey for by_storey, _ in results]), np.stack([totals for _, totals in results])
 
@@ -231,27 +247,31 @@ def _variables(
     from fdspec.kernels.frame.history import STOREY_RESULTS, TOTALS
 
     cells, braced, bare = _ends(grid)
+    n_i = grid.intensities.size
     histories = 1 + max(int(task.items.max()) for task in tasks)
     by_storey = np.empty((len(STOREY_RESULTS), n_r, histories, grid.n_storeys))
     totals = np.empty((len(TOTALS), n_r, histories))
     for (r, items), (of_storeys, of_all) in zip(tasks, parts, strict=True):
         by_storey[:, r, items] = of_storeys.transpose(1, 0, 2)
         totals[:, r, items] = of_all.T
+    by_storey = by_storey.reshape(len(STOREY_RESULTS), n_r, n_i, histories // n_i, grid.n_storeys)
+    totals = totals.reshape(len(TOTALS), n_r, n_i, histories // n_i)
     results = dict(zip(STOREY_RESULTS, by_storey, strict=True)) | dict(zip(TOTALS, totals, strict=True))
     results["peak_base_shear"] = results["peak_storey_shear"][..., 0]
     results["residual_drift"] = np.diff(results["residual_displacement"], prepend=0.0)
     acceleration = results["peak_acceleration"]
     limits = {
-        "elastic_acceleration": acceleration[:, braced:bare],
-        "braced_acceleration": acceleration[:, cells:braced],
+        "elastic_acceleration": acceleration[:, :, braced:bare],
+        "braced_acceleration": acceleration[:, :, cells:braced],
     }
     n_b, n_k, n_s = grid.shape
     lengths = {"record": n_r, "building": n_b, "stiffness_scale": n_k, "slip_scale": n_s}
-    lengths["storey"] = grid.n_storeys
+    lengths |= {"storey": grid.n_storeys, "intensity": n_i}
+    registry = _registry(grid)
     variables: dict[str, NDArray[np.generic]] = {}
     for name in wanted:
-        variable = BUILDING_CUBE[name]
-        values = limits[name] if name in limits else results[name][:, :cells]
+        variable = registry[name]
+        values = limits[name] if name in limits else results[name][:, :, :cells]
         shape = [lengths[dim] for dim in variable.dims]
         variables[name] = values.reshape(shape).astype(variable.dtype)
     return variables
@@ -262,6 +282,7 @@ def _axes(grid: BuildingGrid) -> dict[str, object]:
         "building": list(grid.names),
         "stiffness_scale": grid.stiffness_scale,
         "slip_scale": grid.slip_scale,
+        **({} if grid.intensity is None else {"intensity": grid.intensity}),
         "storey": np.arange(1, grid.n_storeys + 1),
         "slip_force": grid.slip_force,
         "kinetic_slip_force": grid.kinetic_slip_force,
