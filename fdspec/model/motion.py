@@ -137,7 +137,7 @@ class GroundMotion:
     def scaled(self, factor: float) -> GroundMotion:
         """Return this motion times `factor` (a negative one mirrors it)."""
         factor = finite_number("factor", factor)
-        return self._rescaled(factor, f"scaled by {factor!r}")
+        return self.rescaled(factor, f"scaled by {factor!r}")
 
     def times(self, factor: float) -> GroundMotion:
         """Return this motion at another intensity of a sweep: the same record, name and history included.
@@ -158,9 +158,9 @@ class GroundMotion:
                 f"{self._title()} is zero throughout: no factor gives it a PGA of {pga!r} m/s2"
             )
         factor = pga / self.pga
-        return self._rescaled(factor, f"scaled by {factor!r} to a PGA of {pga!r} m/s2")
+        return self.rescaled(factor, f"scaled by {factor!r} to a PGA of {pga!r} m/s2")
 
-    def _rescaled(self, factor: float, step: str) -> GroundMotion:
+    def rescaled(self, factor: float, step: str) -> GroundMotion:
         with np.errstate(over="ignore"):  # an overflow is refused, with its reason, by the new motion
             acceleration = self.acceleration * factor
         return replace(
