@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from fdspec.model.damping import DampingMatrix as DampingMatrix
     from fdspec.model.damping import ModalDamping as ModalDamping
     from fdspec.model.damping import RayleighDamping as RayleighDamping
+    from fdspec.model.link import Link as Link
+    from fdspec.model.link import TensionBrace as TensionBrace
     from fdspec.model.motion import GroundMotion as GroundMotion
     from fdspec.records import load_record as load_record
     from fdspec.records import read_record as read_record
@@ -51,6 +53,7 @@ _NAMES = {
     ),
     "model.building": ("Building",),
     "model.damping": ("DampingMatrix", "ModalDamping", "RayleighDamping"),
+    "model.link": ("Link", "TensionBrace"),
     "model.motion": ("GroundMotion",),
     "records": ("load_record", "read_record"),
     "runs.simulate": ("simulate",),

@@ -83,6 +83,7 @@ STATUSES: Final = MappingProxyType(
         2: "non_finite_state",
         3: "iteration_not_converged",
         4: "energy_not_closed",
+        5: "collapsed",
     }
 )
 """Status code -> meaning, as the kernels return them."""
@@ -146,6 +147,34 @@ def response_variables(grid: tuple[str, ...], storey: tuple[str, ...] = ()) -> t
     )
 
 
+def demand_variables(each: tuple[str, ...]) -> tuple[Variable, ...]:
+    """Return what only buildings with devices have of each storey."""
+    return (
+        Variable("peak_slip", each, "m", "largest slip of the damper from where it was fastened", degree=1),
+        Variable("residual_slip", each, "m", "final slip offset of the damper", degree=1),
+        Variable("peak_brace_force", each, "N", "peak force in the brace", degree=1),
+        Variable(
+            "peak_column_shear", each, "N", "peak shear force of the columns, without P-delta", degree=1
+        ),
+        Variable("peak_column_deformation", each, "m", "peak drift of the columns that can yield", degree=1),
+        Variable("plastic_drift", each, "m", "final plastic drift of the columns", degree=1),
+        Variable("ductility", each, "1", "peak drift over yield drift of the columns", degree=0),
+        Variable("column_energy", each, "J", "energy dissipated by yielding of the columns", degree=2),
+        Variable(
+            "column_events", each, "1", "number of times the columns yielded or unloaded", "int64", degree=0
+        ),
+        Variable(
+            "slot_events",
+            each,
+            "1",
+            "number of contacts and releases at the ends of the slot",
+            "int64",
+            degree=0,
+        ),
+        Variable("peak_drift_ratio", each, "1", "peak drift over the height of the storey", degree=1),
+    )
+
+
 def _variables_of_indices() -> tuple[Variable, ...]:
     """Return what performance indices need beside the responses, the bare frame's share included."""
     bare, braced = ("record", "period"), ("record", "stiffness_ratio", "period")
@@ -185,6 +214,7 @@ CUBE: Final[Registry] = registry_of(
         Variable("kinetic_slip_force", ("pretension",), "N", "friction force of the damper while it slips"),
     ),
     response_variables(STUDY_DIMS),
+    demand_variables(STUDY_DIMS),
     (
         Variable(
             "elastic_acceleration",
@@ -297,6 +327,7 @@ BUILDING_CUBE: Final[Registry] = registry_of(
             degree=1,
         ),
     ),
+    demand_variables(_EACH_STOREY),
 )
 """The variables of a sweep over buildings, dims (record, building, stiffness_scale, slip_scale, storey)."""
 
@@ -323,6 +354,8 @@ INTENSITY_BUILDING_CUBE: Final = over_intensity(BUILDING_CUBE)
 _OVER_TIME: Final = ("time",)
 _EACH: Final = ("time", "storey")
 _STOREY: Final = ("storey",)
+_LINK: Final = ("link",)
+_EACH_LINK: Final = ("time", "link")
 _TRANSITION: Final = ("transition",)
 
 HISTORY: Final[Registry] = registry_of(
@@ -351,6 +384,9 @@ HISTORY: Final[Registry] = registry_of(
         Variable(
             "input_energy", _OVER_TIME, "J", "energy put in by the ground motion, in the ground's frame"
         ),
+        Variable(
+            "end_state", ("state",), "1", "state of the engine at the end, for a history that goes on from it"
+        ),
         Variable("transition_time", _TRANSITION, "s", "instant of the change of phase"),
         Variable("transition_storey", _TRANSITION, "1", "storey of the change of phase", "int64"),
         Variable("transition_phase", _TRANSITION, "", "phase after the change", "int8", _flags(PHASES)),
@@ -375,8 +411,27 @@ HISTORY: Final[Registry] = registry_of(
         Variable("energy_error", (), "1", "error of the energy balance relative to the energy in play"),
         Variable("status", (), "", "how the integration ended", "int8", _flags(STATUSES)),
     ),
+    demand_variables(_STOREY),
+    (
+        Variable("column_shear", _EACH, "N", "shear force of the columns, without P-delta"),
+        Variable("plastic_deformation", _EACH, "m", "plastic drift of the columns so far"),
+        Variable("bearing_energy", _OVER_TIME, "J", "elastic energy in the ends of all slots"),
+        Variable("gravity_energy", _OVER_TIME, "J", "work done by gravity on the leaning frame"),
+        Variable("yielding_energy", _OVER_TIME, "J", "energy dissipated by yielding of all columns"),
+        Variable("links_energy", _OVER_TIME, "J", "energy dissipated in all links"),
+        Variable("link", _LINK, "", "name of the link", TEXT),
+        Variable("link_slip", _EACH_LINK, "m", "slip offset of the link, of a one-sided brace its slack"),
+        Variable("link_force", _EACH_LINK, "N", "force in the brace of the link"),
+        Variable("link_phase", _EACH_LINK, "", "phase of the link", "int8", _flags(PHASES)),
+        Variable("peak_link_slip", _LINK, "m", "largest slip of the link from where it was fastened"),
+        Variable("residual_link_slip", _LINK, "m", "final slip offset of the link"),
+        Variable("peak_link_force", _LINK, "N", "peak force in the brace of the link"),
+        Variable("link_energy", _LINK, "J", "energy dissipated in the link"),
+        Variable("link_events", _LINK, "1", "number of changes of phase of the link", "int64"),
+        Variable("link_contacts", _LINK, "1", "number of contacts and releases in the link", "int64"),
+    ),
 )
-"""The variables of one simulated history, dims time, storey and transition."""
+"""The variables of one simulated history, dims time, storey, transition and, where there are any, link."""
 
 
 def describe(dataset: xr.Dataset, registry: Registry) -> xr.Dataset:

@@ -54,6 +54,9 @@ SECONDS_PER_SAMPLE: Final = 60e-9
 FRAME_SECONDS_PER_SAMPLE: Final = 0.8e-6
 """The same of a frame, times storeys to the power 1.5."""
 
+DEVICE_SECONDS_PER_SAMPLE: Final = 10e-6
+"""The same of a building with devices."""
+
 
 @dataclass(frozen=True, eq=False)
 class Bench:
@@ -75,7 +78,12 @@ class Bench:
             raise InvalidInput(f"building must be a Building, got {type(self.building).__name__}")
         object.__setattr__(self, "motions", named(self.motions))
         statistic_of(self.statistic)
-        needs_of(self.index)
+        needs = needs_of(self.index)
+        if self.building.has_devices and set(STRAIN) & set(needs):
+            raise InvalidInput(
+                f"index {self.index!r} needs the strain energy of the frame over time, which is known of "
+                "buildings without yielding columns, slots, gravity and links alone"
+            )
         if not self.braced_storeys.any():
             raise InvalidInput("the building has no brace (brace_stiffness 0): there is no damper to choose")
 
@@ -127,23 +135,19 @@ class Bench:
 
     def with_slip_force(self, slip_force: FloatArray) -> Building:
         """The building with these slip forces (N,), its frictions in the same ratio."""
-        b = self.building
         force = np.where(self.braced_storeys, slip_force, 0.0)
         kinetic = np.where(np.isfinite(force), force * self.kinetic_ratio, np.inf)
-        return Building(
-            b.floor_mass,
-            b.storey_stiffness,
-            b.brace_mass,
-            b.brace_stiffness,
-            force,
-            np.where(self.braced_storeys, kinetic, 0.0),
-            b.damping,
-            b.brace_damping,
+        return self.building.with_changes(
+            slip_force=force, kinetic_slip_force=np.where(self.braced_storeys, kinetic, 0.0)
         )
 
     @staticmethod
     def peaks_of(building: Building, motion: GroundMotion) -> dict[str, FloatArray]:
         """Peaks (N,) of every storey, by name: `fdspec.kernels.frame.history.STOREY_RESULTS`."""
+        if building.has_devices:
+            from fdspec.engines.devices import peaks_of as peaks_with_devices
+
+            return peaks_with_devices(building, motion)[0]
         from fdspec.engines.many_storeys import peaks_of
         from fdspec.kernels.frame.history import STOREY_RESULTS
 
@@ -203,9 +207,15 @@ class Bench:
 
 def without_braces(building: Building) -> Building:
     """The bare frame of a building."""
-    none = np.zeros(building.n_storeys)
-    return Building(
-        building.floor_mass, building.storey_stiffness, none, none, none, none, building.damping, none
+    return building.with_changes(
+        brace_mass=0.0,
+        brace_stiffness=0.0,
+        slip_force=0.0,
+        kinetic_slip_force=0.0,
+        brace_damping=0.0,
+        slot_length=None,
+        slot_stiffness=None,
+        recentring_stiffness=None,
     )
 
 
@@ -239,10 +249,11 @@ def _run(
 ) -> dict[str, FloatArray]:
     """Run a building with each row of slip forces (c, N) under every motion: response -> (c, r)."""
     count, storeys = slip_force.shape
-    if storeys == 1:
-        work: Any = partial(
-            _run_storey, np.array(building.storey[:6]), slip_force[:, 0], kinetic_slip_force[:, 0]
-        )
+    if building.has_devices:
+        work: Any = partial(_run_devices, building, slip_force, kinetic_slip_force)
+        each = DEVICE_SECONDS_PER_SAMPLE * storeys**1.5
+    elif storeys == 1:
+        work = partial(_run_storey, np.array(building.storey[:6]), slip_force[:, 0], kinetic_slip_force[:, 0])
         each = SECONDS_PER_SAMPLE
     else:
         work = partial(_run_frame, building.frame, slip_force, kinetic_slip_force)
@@ -304,6 +315,43 @@ def _run_storey(
     return table
 
 
+def _largest(row: Mapping[str, FloatArray], total: Mapping[str, float]) -> dict[str, float]:
+    """Responses of a frame from those of its storeys (N,) and of the whole."""
+    residual = np.diff(row["residual_displacement"], prepend=0.0)
+    return {
+        "peak_acceleration": float(row["peak_acceleration"].max()),
+        "peak_displacement": float(row["peak_drift"].max()),
+        "peak_velocity": float(row["peak_velocity"].max()),
+        "peak_base_shear": float(row["peak_storey_shear"][0]),
+        "residual_displacement": float(np.abs(residual).max()),
+        "slip_travel": float(row["slip_travel"].max()),
+        **{name: float(total[name]) for name in ("dissipated_energy", "input_energy", "status")},
+    }
+
+
+def _run_devices(
+    building: Building,
+    slip_force: FloatArray,
+    kinetic_slip_force: FloatArray,
+    needs: Collection[str],  # noqa: ARG001 - what they need is there
+    items: IntArray,
+    motion: GroundMotion,
+) -> FloatArray:
+    """Run a building with devices with some of the rows of slip forces (c, N): (len(RESPONSES), items)."""
+    from fdspec.engines.devices import peaks_of
+
+    table = np.full((len(RESPONSES), items.size), np.nan)
+    braced = building.brace_stiffness > 0.0
+    for column, item in enumerate(items):
+        one = building.with_changes(
+            slip_force=np.where(braced, slip_force[item], 0.0),
+            kinetic_slip_force=np.where(braced, kinetic_slip_force[item], 0.0),
+        )
+        found = _largest(*peaks_of(one, motion))
+        table[:, column] = [found.get(name, np.nan) for name in RESPONSES]
+    return table
+
+
 def _run_frame(
     frame: Frame,
     slip_force: FloatArray,
@@ -323,16 +371,7 @@ def _run_frame(
         by_storey, totals = peaks_of(one, motion, certify=False)
         row = dict(zip(STOREY_RESULTS, by_storey, strict=True))
         total = dict(zip(TOTALS, totals, strict=True))
-        residual = np.diff(row["residual_displacement"], prepend=0.0)
-        found = {
-            "peak_acceleration": row["peak_acceleration"].max(),
-            "peak_displacement": row["peak_drift"].max(),
-            "peak_velocity": row["peak_velocity"].max(),
-            "peak_base_shear": row["peak_storey_shear"][0],
-            "residual_displacement": np.abs(residual).max(),
-            "slip_travel": row["slip_travel"].max(),
-            **{name: total[name] for name in ("dissipated_energy", "input_energy", "status")},
-        }
+        found = _largest(row, total)
         if set(STRAIN) & set(needs):
             found |= dict(zip(STRAIN, strain_of_frame(one, motion)[:2], strict=True))
         table[:, column] = [found.get(name, np.nan) for name in RESPONSES]

@@ -60,6 +60,13 @@ def best_pretension(
     kinetic_friction_coefficient: float | None = None,
     normal_force_factor: float = 1.0,
     brace_damping_ratio: float = 0.0,
+    storey_height: float | None = None,
+    yield_shear: float | None = None,
+    hardening_ratio: float = 0.0,
+    gravity_load: float | None = None,
+    slot_length: float | None = None,
+    slot_stiffness: float | None = None,
+    recentring_stiffness: float | None = None,
     workers: int | None = None,
     progress: Shown = False,
 ) -> xr.Dataset:
@@ -83,7 +90,8 @@ def best_pretension(
     band : float
         Share above the least index that counts as nearly as good.
     floor_mass, brace_mass, damping_ratio, friction_coefficient, kinetic_friction_coefficient, \
-    normal_force_factor, brace_damping_ratio : float
+    normal_force_factor, brace_damping_ratio, storey_height, yield_shear, hardening_ratio, gravity_load, \
+    slot_length, slot_stiffness, recentring_stiffness : float
         As for `fdspec.sweep`.
     workers : int, optional
         Threads; one a core unless given.  No result depends on it.
@@ -123,6 +131,13 @@ def best_pretension(
         kinetic_friction_coefficient=kinetic_friction_coefficient,
         normal_force_factor=normal_force_factor,
         brace_damping_ratio=brace_damping_ratio,
+        storey_height=storey_height,
+        yield_shear=yield_shear,
+        hardening_ratio=hardening_ratio,
+        gravity_load=gravity_load,
+        slot_length=slot_length,
+        slot_stiffness=slot_stiffness,
+        recentring_stiffness=recentring_stiffness,
     )
     if grid.friction_coefficient == 0.0:
         raise InvalidInput(
@@ -189,6 +204,7 @@ def _bench(
         brace_mass=grid.brace_mass,
         damping_ratio=grid.damping_ratio,
         brace_damping_ratio=grid.brace_damping_ratio,
+        **grid.devices,
     )
     return Bench(building, motions, index, statistic, workers)
 

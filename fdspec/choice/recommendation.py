@@ -228,15 +228,9 @@ def _searched(bench: Bench, shape: FloatArray, band: float) -> tuple[Scan, Float
 
 def _with_braces(building: Building, scale: float) -> Building:
     """The building with braces of another stiffness, whose dashpots keep their damping ratio."""
-    return Building(
-        building.floor_mass,
-        building.storey_stiffness,
-        building.brace_mass,
-        scale * building.brace_stiffness,
-        building.slip_force,
-        building.kinetic_slip_force,
-        building.damping,
-        np.sqrt(scale) * building.brace_damping,
+    return building.with_changes(
+        brace_stiffness=scale * building.brace_stiffness,
+        brace_damping=np.sqrt(scale) * building.brace_damping,
     )
 
 

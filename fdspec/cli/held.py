@@ -20,7 +20,7 @@ def holds(path: Path, study: Study, motions: Sequence[GroundMotion]) -> bool:
     import fdspec
     from fdspec.errors import FdspecError
     from fdspec.runs.cube import chosen
-    from fdspec.runs.sweep import ON_REQUEST, OUTPUTS
+    from fdspec.runs.sweep import ON_REQUEST, usual_outputs
     from fdspec.store import provenance
     from fdspec.store.netcdf import is_complete
     from fdspec.store.origin import parameters_of
@@ -33,11 +33,12 @@ def holds(path: Path, study: Study, motions: Sequence[GroundMotion]) -> bool:
         held = parameters_of(told)
     except (FdspecError, ValueError):
         return False
-    outputs = OUTPUTS if study.outputs is None else study.outputs
+    usual = usual_outputs(study.grid)
+    outputs = usual if study.outputs is None else study.outputs
     parameters = {
         **study.grid.parameters,
         "certify": study.certify,
-        "outputs": list(chosen(outputs, (*OUTPUTS, *ON_REQUEST), study.certify)),
+        "outputs": list(chosen(outputs, (*usual, *ON_REQUEST), study.certify)),
     }
     wanted = provenance("", parameters, motions)
     same_version = told.get("fdspec_version") == wanted["fdspec_version"]

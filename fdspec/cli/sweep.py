@@ -201,11 +201,11 @@ def _plan(study: Study, path: Path) -> str:
     """Say what a run would do."""
     from fdspec.runs.bounds import seconds_of_sweep
     from fdspec.runs.cost import measured
-    from fdspec.runs.sweep import OUTPUTS, bytes_of, refuse_endless
+    from fdspec.runs.sweep import bytes_of, refuse_endless, usual_outputs
     from fdspec.scheduling.threads import cores
 
     motions = study.motions()
-    outputs = study.outputs or OUTPUTS
+    outputs = study.outputs or usual_outputs(study.grid)
     rough = sum(seconds_of_sweep(study.grid, motions, study.certify))
     store = store_of(path, resumable=None, expected=lambda: rough / cores())
     refuse_endless(motions, study.grid, outputs, rough, store)

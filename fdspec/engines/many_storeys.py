@@ -8,7 +8,7 @@ import numpy as np
 
 from fdspec.engines.trajectory import Course, FloatArray, IntArray, Span
 from fdspec.errors import InvalidInput
-from fdspec.kernels.frame.history import RADIANS, STOREY_RESULTS, TOTALS, integrate
+from fdspec.kernels.frame.history import END, END_ROWS, RADIANS, STOREY_RESULTS, TOTALS, integrate
 from fdspec.kernels.frame.model import BRACE_MASS, SLIP_FORCE, held_rates, rate_of, slip_norms
 from fdspec.kernels.frame.output import STOREY_TRACES, TOTAL_TRACES
 from fdspec.model.building import Building, Frame
@@ -52,7 +52,7 @@ def peaks_of(frame: Frame, motion: GroundMotion, *, certify: bool) -> tuple[Floa
     storey (rows, N), and TOTALS.
     """
     size = frame.properties.shape[1]
-    by_storey = np.empty((len(STOREY_RESULTS), size))
+    by_storey = np.empty((END + END_ROWS, size))
     totals = np.empty(len(TOTALS))
     integrate(
         frame.properties,
@@ -74,7 +74,7 @@ def peaks_of(frame: Frame, motion: GroundMotion, *, certify: bool) -> tuple[Floa
         by_storey,
         totals,
     )
-    return by_storey, totals
+    return by_storey[:END], totals
 
 
 def integrate_many_storeys(
@@ -82,14 +82,16 @@ def integrate_many_storeys(
     motion: GroundMotion,
     span: Span,
     start: FloatArray,
+    resume: FloatArray | None = None,
+    *,
     radians: float = RADIANS,
     extra_terms: int = 0,
 ) -> Course:
     """Integrate a building of any number of storeys.
 
-    start: displacement and velocity of floors and braces, (2, 2, N), m and m/s.  radians: longest
-    phase of a step; extra_terms: terms of the series beyond those that rounding leaves; neither moves
-    a result.
+    start: displacement and velocity of floors and braces, (2, 2, N), m and m/s.  resume: the end of another
+    history, to go on from in place of the start.  radians: longest phase of a step; extra_terms: terms of the
+    series beyond those that rounding leaves; neither moves a result.
     """
     size = building.n_storeys
     frame = building.frame
@@ -101,7 +103,9 @@ def integrate_many_storeys(
             f"got {start[1, 0, storey]:g} and {start[1, 1, storey]:g} m/s in storey {storey + 1}"
         )
     state = np.ascontiguousarray(start.transpose(1, 0, 2).reshape(4, size))
-    by_storey = np.empty((len(STOREY_RESULTS), size))
+    if resume is not None:
+        state = np.ascontiguousarray(resume.reshape(END_ROWS, size))
+    by_storey = np.empty((END + END_ROWS, size))
     totals = np.empty(len(TOTALS))
     no_traces = np.empty((0, len(STOREY_TRACES), size)), np.empty((0, len(TOTAL_TRACES)))
 
@@ -141,7 +145,7 @@ def integrate_many_storeys(
 
     course = {name: np.ascontiguousarray(traces[:, i]) for i, name in enumerate(STOREY_TRACES)}
     work = {name: np.ascontiguousarray(energies[:, i]) for i, name in enumerate(TOTAL_TRACES)}
-    result = dict(zip(STOREY_RESULTS, by_storey, strict=True))
+    result = dict(zip(STOREY_RESULTS, by_storey[:END], strict=True))
     total = dict(zip(TOTALS, totals, strict=True))
     return Course(
         displacement=course["displacement"],
@@ -169,4 +173,5 @@ def integrate_many_storeys(
         dissipated_energy=float(total["dissipated_energy"]),
         energy_error=float(total["energy_error"]),
         status=int(total["status"]),
+        end=by_storey[END:].ravel(),
     )

@@ -12,18 +12,25 @@ from fdspec.kernels.storey.constants import RADIANS
 from fdspec.kernels.storey.entry import integrate
 from fdspec.kernels.storey.history import RESULTS
 from fdspec.kernels.storey.output import TRACES
-from fdspec.kernels.types import Motion
+from fdspec.kernels.types import N_STATE, Motion
 from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
 
 
 def integrate_single_storey(
-    building: Building, motion: GroundMotion, span: Span, start: FloatArray, radians: float = RADIANS
+    building: Building,
+    motion: GroundMotion,
+    span: Span,
+    start: FloatArray,
+    resume: FloatArray | None = None,
+    *,
+    radians: float = RADIANS,
 ) -> Course:
     """Integrate a building of one storey.
 
-    start: displacement and velocity of floor and brace, (2, 2, 1), m and m/s.  radians: longest
-    phase of a piece that is searched for roots; it moves no result.
+    start: displacement and velocity of floor and brace, (2, 2, 1), m and m/s.  resume: the end of another
+    history, to go on from in place of the start.  radians: longest phase of a piece that is searched for
+    roots; it moves no result.
     """
     storey = building.storey
     if storey.brace_mass == 0.0 and storey.brace_stiffness == 0.0:  # no brace: nothing to slip on
@@ -35,11 +42,14 @@ def integrate_single_storey(
             f"got {state.v:g} and {state.e:g} m/s"
         )
     result = np.empty(len(RESULTS))
+    s = np.empty(N_STATE)
     no_times, no_phases = np.empty(0), np.empty(0, np.int64)
 
     def run(
         times: FloatArray, phases: np.ndarray[tuple[int], np.dtype[np.int64]], traces: FloatArray
     ) -> None:
+        if resume is not None:
+            s[:] = resume
         integrate(
             storey,
             motion.acceleration,
@@ -47,6 +57,8 @@ def integrate_single_storey(
             span.free_steps,
             radians,
             state,
+            resume is not None,
+            s,
             times,
             phases,
             span.dt_out,
@@ -94,4 +106,5 @@ def integrate_single_storey(
         dissipated_energy=float(peak["dissipated_energy"]),
         energy_error=float(peak["energy_error"]),
         status=int(peak["status"]),
+        end=s,
     )

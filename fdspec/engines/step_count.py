@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fdspec.engines.many_storeys import rates_of
 from fdspec.errors import InvalidInput
+from fdspec.kernels.devices import layout as row
 from fdspec.kernels.frame.history import RADIANS as FRAME_RADIANS
 from fdspec.model.building import Building
 
@@ -82,7 +83,12 @@ def refuse_endless(building: Building, dt: float, record_steps: int, limit: floa
     m, md, kd, cd = building.floor_mass, building.brace_mass, building.brace_stiffness, building.brace_damping
     slips = np.isfinite(building.slip_force)
     brace = np.where(slips, fastest_rate(md, cd, kd), 0.0)
-    if building.n_storeys == 1:
+    links = np.zeros(0)
+    if building.has_devices:
+        links = _link_rates(building)
+        fastest = max(rates_of(building.frame).max(), links.max(initial=0.0))
+        steps = record_steps * max(1.0, np.ceil(fastest * dt / FRAME_RADIANS))
+    elif building.n_storeys == 1:
         steps = float(steps_of_storeys(np.array(building.storey), dt, record_steps))
     else:
         fastest = rates_of(building.frame).max()
@@ -93,6 +99,8 @@ def refuse_endless(building: Building, dt: float, record_steps: int, limit: floa
     frame = float(_frame_rate(building))
     if record_steps > most:
         cause = f"{record_steps:.3g} record steps of dt {dt:g} s, free_vibration included"
+    elif links.max(initial=0.0) > max(frame, brace[i]):
+        cause = f"slots, springs and masses of links (up to {links.max():.3g} rad/s), with dt {dt:g} s,"
     elif brace[i] > frame:
         cause = (
             f"brace_mass {md[i]:g} kg, brace_damping {cd[i]:g} N s/m and brace_stiffness {kd[i]:g} N/m "
@@ -104,6 +112,17 @@ def refuse_endless(building: Building, dt: float, record_steps: int, limit: floa
         f"{cause} would take about {steps:.2g} steps; at most {most:.3g} are taken, "
         f"set max_steps or {VARIABLE} to allow more"
     )
+
+
+def _link_rates(building: Building) -> FloatArray:
+    """Bounds on the rates, 1/s, of what moves at each link of a building with devices, bolts in bearing."""
+    frame = building.device_frame
+    bearing = np.where(np.isfinite(frame.links[row.SLOT_LENGTH]), frame.links[row.SLOT_STIFFNESS], 0.0)
+    stiffness = frame.links[row.STIFFNESS] + frame.links[row.RECENTRING] + bearing
+    ends = np.minimum(frame.mass[frame.places[row.UPPER]], frame.mass[frame.places[row.LOWER]])
+    mass = np.where(frame.links[row.MASS] > 0.0, frame.links[row.MASS], ends)
+    lag = fastest_rate(0.0, frame.links[row.DAMPING], np.where(frame.links[row.MASS] > 0.0, 0.0, stiffness))
+    return np.maximum(fastest_rate(mass, frame.links[row.DAMPING], 2.0 * stiffness), lag)
 
 
 def _frame_rate(building: Building) -> FloatArray:

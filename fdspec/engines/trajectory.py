@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,6 +48,47 @@ class Course:
     dissipated_energy: float
     energy_error: float
     status: int
+    end: FloatArray | None = None
+    """The engine's own state at the end, (k,), from which it goes on; None where a method keeps none."""
+
+
+@dataclass(frozen=True)
+class DeviceCourse:
+    """What devices add to a history; over time (m,), (m, N) and (m, L), else (N,) and (L,)."""
+
+    column_shear: FloatArray
+    plastic_deformation: FloatArray
+    kinetic_energy: FloatArray
+    strain_energy: FloatArray
+    bearing_energy: FloatArray
+    gravity_energy: FloatArray
+    column_work: FloatArray
+    """(m, N) J dissipated in the columns so far."""
+    link_slip: FloatArray
+    link_force: FloatArray
+    link_phase: IntArray
+    link_work: FloatArray
+    storeys: dict[str, FloatArray]
+    """What each storey has of its own at the end, by name: `fdspec.variables.demand_variables`."""
+    peak_link_slip: FloatArray
+    residual_link_slip: FloatArray
+    peak_link_force: FloatArray
+    link_energy: FloatArray
+    link_events: IntArray
+    link_contacts: IntArray
+    collapse_storey: int
+    """Storey whose drift reached its limit, counted from 1; 0: none."""
+    collapse_time: float
+    """s"""
+    collapse_drift: float
+    """That limit, m."""
+
+
+@dataclass(frozen=True)
+class CourseWithDevices(Course):
+    """One history of a building with devices."""
+
+    devices: DeviceCourse = field(kw_only=True)
 
 
 @dataclass(frozen=True)

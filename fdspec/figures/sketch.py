@@ -96,14 +96,14 @@ def _frame(axis: Axes, storeys: int, building: Building | None) -> None:
         "brace": (right + 0.28, top - 1.55, f"brace\n$k_d$, $m_d${told['brace']}", FRICTION),
     }
     for name, (at, height, words, colour) in say.items():
-        side = {"floor": "center", "column": "right", "brace": "left"}[name]
+        align = {"floor": "center", "column": "right", "brace": "left"}[name]
         axis.text(
             at,
             height,
             words,
             color=colour,
             fontsize=SMALL + 1,
-            ha=side,
+            ha=align,
             va="bottom" if name == "floor" else "center",
         )
     axis.annotate(

@@ -18,6 +18,8 @@ ITERATION_NOT_CONVERGED: Final = 3
 """Status of a method that iterates: a step's accelerations or forces did not settle."""
 ENERGY_NOT_CLOSED: Final = 4
 """Status: the balance of all energies is off by more than ENERGY_TOLERANCE; the results cannot be trusted."""
+COLLAPSED: Final = 5
+"""Status: a drift has reached the limit at which the frame counts as collapsed; results end there."""
 
 STATUS_MEANINGS: Final = (
     "ok",
@@ -25,6 +27,7 @@ STATUS_MEANINGS: Final = (
     "non_finite_state",
     "iteration_not_converged",
     "energy_not_closed",
+    "collapsed",
 )
 """Name of each status, in the order of the codes."""
 

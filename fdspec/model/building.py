@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from dataclasses import fields as dataclass_fields
 from functools import cached_property
-from typing import Any
+from typing import Any, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,6 +24,9 @@ from fdspec.model.damping import (
     symmetric,
 )
 from fdspec.model.damping import damping_ratio as damping_ratio_of
+from fdspec.model.device_check import NONE, checked_links, device_fields
+from fdspec.model.device_frame import DeviceFrame, device_frame
+from fdspec.model.link import Link, TensionBrace
 from fdspec.model.number_check import not_negative_number, positive_number
 from fdspec.model.springs import Frame, Linkage, shear_matrix
 
@@ -37,6 +41,20 @@ __all__ = [
 ]
 
 Array = NDArray[np.float64]
+
+
+class DeviceParameters(TypedDict, total=False):
+    """The parameters of a building's devices, as `Building` takes them."""
+
+    storey_height: ArrayLike | None
+    yield_shear: ArrayLike | None
+    hardening_ratio: ArrayLike
+    gravity_load: ArrayLike | None
+    slot_length: ArrayLike | None
+    slot_stiffness: ArrayLike | None
+    recentring_stiffness: ArrayLike | None
+    links: Sequence[Link | TensionBrace]
+    collapse_drift: ArrayLike | None
 
 
 @dataclass(frozen=True, init=False, eq=False, repr=False)
@@ -66,6 +84,28 @@ class Building:
         Damping of the bare frame.
     brace_damping : N s/m, optional
         Dashpot beside each brace's spring, by default none.
+    storey_height : m, optional
+        Height of each storey; needed for `gravity_load`, and for drift ratios.
+    yield_shear : N, optional
+        The columns' own shear at first yield, without P-delta; by default, and where it is infinite, they
+        stay elastic.
+    hardening_ratio : float
+        Stiffness of yielding columns over their elastic one, less than 1; 0 is elastoplastic, a negative
+        one softens.
+    gravity_load : N, optional
+        Weight carried by each storey, that of all above it included. It takes gravity_load / storey_height
+        off the storey's stiffness. The damping stays that of the elastic frame without it.
+    slot_length : m, optional
+        Free slip of each damper to either side before its bolts bear.
+    slot_stiffness : N/m, optional
+        Stiffness of the bolts in bearing, between floor and brace, beside friction.
+    recentring_stiffness : N/m, optional
+        Spring between floor and brace, across the slider.
+    links : sequence of Link or TensionBrace
+        Dampers and braces between any two floors, or a floor and the ground.
+    collapse_drift : m, optional
+        Drift at which a history ends with the status ``collapsed``. By default a tenth of the storey's
+        height where gravity or softening columns may make the building unstable, else there is none.
 
     Raises
     ------
@@ -89,6 +129,15 @@ class Building:
     kinetic_slip_force: Array
     damping: Damping
     brace_damping: Array
+    storey_height: Array
+    yield_shear: Array
+    hardening_ratio: Array
+    gravity_load: Array
+    slot_length: Array
+    slot_stiffness: Array
+    recentring_stiffness: Array
+    links: tuple[Link | TensionBrace, ...]
+    collapse_drift: Array
 
     # A dataclass would demand the arrays themselves; callers may hand over any numbers.
     def __init__(
@@ -101,6 +150,16 @@ class Building:
         kinetic_slip_force: ArrayLike | None = None,
         damping: Damping | None = None,
         brace_damping: ArrayLike | None = None,
+        *,
+        storey_height: ArrayLike | None = None,
+        yield_shear: ArrayLike | None = None,
+        hardening_ratio: ArrayLike = 0.0,
+        gravity_load: ArrayLike | None = None,
+        slot_length: ArrayLike | None = None,
+        slot_stiffness: ArrayLike | None = None,
+        recentring_stiffness: ArrayLike | None = None,
+        links: Sequence[Link | TensionBrace] = (),
+        collapse_drift: ArrayLike | None = None,
     ) -> None:
         given: dict[str, ArrayLike] = {
             "floor_mass": floor_mass,
@@ -110,17 +169,36 @@ class Building:
             "kinetic_slip_force": slip_force if kinetic_slip_force is None else kinetic_slip_force,
             "brace_damping": 0.0 if brace_damping is None else brace_damping,
         }
+        devices: dict[str, ArrayLike | None] = {
+            "storey_height": storey_height,
+            "yield_shear": yield_shear,
+            "hardening_ratio": hardening_ratio,
+            "gravity_load": gravity_load,
+            "slot_length": slot_length,
+            "slot_stiffness": slot_stiffness,
+            "recentring_stiffness": recentring_stiffness,
+            "collapse_drift": collapse_drift,
+        }
         arrays = {name: numbers(name, value) for name, value in given.items()}
         if np.ndim(storey_stiffness) == 2:
             stiffness = symmetric("stiffness", storey_stiffness, "N/m")
             size = stiffness.shape[0]
         else:
             stiffness = numbers("storey_stiffness", storey_stiffness)
-            size = max(array.size for array in [stiffness, *arrays.values()])
+            size = max(
+                array.size
+                for array in [
+                    stiffness,
+                    *arrays.values(),
+                    *(numbers(name, value) for name, value in devices.items() if value is not None),
+                ]
+            )
             arrays["storey_stiffness"] = stiffness
         fields = {name: per_storey(name, array, size) for name, array in arrays.items()}
         fields.setdefault("storey_stiffness", stiffness)
         refuse_impossible(fields)
+        fields |= device_fields(devices, fields)
+        object.__setattr__(self, "links", checked_links(links, size))
         chosen = ModalDamping() if damping is None else damping
         if not isinstance(chosen, Damping):
             raise InvalidInput(
@@ -144,6 +222,7 @@ class Building:
         brace_damping_ratio: float = 0.0,
         *,
         overdamped: bool = False,
+        **devices: Unpack[DeviceParameters],
     ) -> Building:
         """Make the study's single-storey frame.
 
@@ -163,6 +242,9 @@ class Building:
             The same of the brace standing by itself: c_d = 2 zeta sqrt(k_d m_d).
         overdamped : bool
             Whether these ratios may be 1 or more; unless asked for, that is taken for per cent and refused.
+        **devices
+            `storey_height`, `yield_shear`, `hardening_ratio`, `gravity_load`, `slot_length`,
+            `slot_stiffness`, `recentring_stiffness`, `links` and `collapse_drift`, as for `Building`.
 
         Returns
         -------
@@ -185,6 +267,7 @@ class Building:
                 damping_ratio_of("damping_ratio", damping_ratio, overdamped=overdamped), overdamped=overdamped
             ),
             2.0 * brace_ratio * math.sqrt(brace_stiffness * not_negative_number("brace_mass", brace_mass)),
+            **devices,
         )
 
     @classmethod
@@ -198,6 +281,7 @@ class Building:
         damping: Damping | None = None,
         kinetic_slip_force: ArrayLike | None = None,
         brace_damping: ArrayLike | None = None,
+        **devices: Unpack[DeviceParameters],
     ) -> Building:
         """Make a shear building from its masses and two first periods.
 
@@ -210,7 +294,7 @@ class Building:
             Mass of each floor.
         bare_period, braced_period : float, s
             First natural period without the braces and with all dampers stuck.
-        slip_force, brace_mass, damping, kinetic_slip_force, brace_damping
+        slip_force, brace_mass, damping, kinetic_slip_force, brace_damping, **devices
             As for `Building`.
 
         Returns
@@ -249,6 +333,7 @@ class Building:
             kinetic_slip_force,
             damping,
             brace_damping,
+            **devices,
         )
 
     @classmethod
@@ -263,6 +348,7 @@ class Building:
         brace_mass: ArrayLike = 0.0,
         kinetic_slip_force: ArrayLike | None = None,
         brace_damping: ArrayLike | None = None,
+        **devices: Unpack[DeviceParameters],
     ) -> Building:
         """Make a building from the frame's matrices, as another program condensed them.
 
@@ -297,7 +383,26 @@ class Building:
             kinetic_slip_force,
             chosen,
             brace_damping,
+            **devices,
         )
+
+    def with_changes(self, **changes: Any) -> Building:
+        """Return this building with other values of some of its parameters, as `Building` takes them.
+
+        Examples
+        --------
+        >>> frame = Building.single_storey(period=0.5, stiffness_ratio=4, slip_force=100e3)
+        >>> frame.with_changes(slip_force=50e3, kinetic_slip_force=40e3).slip_force
+        array([50000.])
+        """
+        given = {field.name: getattr(self, field.name) for field in dataclass_fields(self)}
+        unknown = sorted(set(changes) - set(given))
+        if unknown:
+            raise InvalidInput(f"{unknown[0]!r} is no parameter of a building; known are {', '.join(given)}")
+        for name in ("storey_height", "collapse_drift"):
+            if np.isnan(given[name]).any():
+                given[name] = None
+        return Building(**given | changes)
 
     @property
     def n_storeys(self) -> int:
@@ -344,12 +449,33 @@ class Building:
             float(self.kinetic_slip_force[0]),
         )
 
+    @property
+    def has_devices(self) -> bool:
+        """Whether anything beside the frame, its braces and their friction is in it."""
+        return bool(
+            self.links
+            or (self.yield_shear < np.inf).any()
+            or (self.gravity_load > 0.0).any()
+            or (self.slot_length < np.inf).any()
+            or (self.recentring_stiffness > 0.0).any()
+            or (self.collapse_drift < np.inf).any()
+        )
+
+    @cached_property
+    def device_frame(self) -> DeviceFrame:
+        """The numbers of the building as the kernel for devices takes them."""
+        return device_frame(self, self._springs, Linkage.of(self.damping_matrix))
+
+    @property
+    def _springs(self) -> Linkage:
+        if self.storey_stiffness.ndim == 1:  # as given, untouched by the way through the matrix
+            return Linkage(self.storey_stiffness, np.zeros(self.n_storeys), np.zeros((0, 0)))
+        return Linkage.of(self.stiffness_matrix)
+
     @cached_property
     def frame(self) -> Frame:
-        """The numbers of the building as the kernel for N storeys takes them."""
-        stiffness = Linkage.of(self.stiffness_matrix)
-        if self.storey_stiffness.ndim == 1:  # as given, untouched by the way through the matrix
-            stiffness = Linkage(self.storey_stiffness, np.zeros(self.n_storeys), np.zeros((0, 0)))
+        """The numbers of the building as the kernel for N storeys takes them, without its devices."""
+        stiffness = self._springs
         damping = Linkage.of(self.damping_matrix)
         rows = (
             self.floor_mass,
@@ -366,9 +492,10 @@ class Building:
         return Frame(read_only(np.stack(rows)), stiffness.dense, damping.dense)
 
     @property
-    def parameters(self) -> dict[str, Array]:
+    def parameters(self) -> dict[str, Any]:
         """All that an answer depends on, by name, SI units: for a file that says where it comes from."""
         return {
+            **self._device_parameters(),
             "floor_mass": self.floor_mass,
             "stiffness_matrix": self.stiffness_matrix,
             "damping_matrix": self.damping_matrix,
@@ -379,6 +506,15 @@ class Building:
             "kinetic_slip_force": self.kinetic_slip_force,
         }
 
+    def _device_parameters(self) -> dict[str, Any]:
+        """Those of the devices that are there."""
+        there = {
+            name: getattr(self, name)
+            for name, absent in NONE.items()
+            if not np.array_equal(getattr(self, name), np.full(self.n_storeys, absent), equal_nan=True)
+        }
+        return there | ({"links": [asdict(link) for link in self.links]} if self.links else {})
+
     def _identity(self) -> tuple[Any, ...]:
         arrays = (
             self.floor_mass,
@@ -388,8 +524,9 @@ class Building:
             self.slip_force,
             self.kinetic_slip_force,
             self.brace_damping,
+            *(getattr(self, name) for name in NONE),
         )
-        return (self.damping, *(array.tobytes() for array in arrays))
+        return (self.damping, self.links, *(array.tobytes() for array in arrays))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Building):

@@ -11,11 +11,45 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 from fdspec.errors import InvalidInput
 from fdspec.model.building import Building
 from fdspec.model.damping import ModalDamping
+from fdspec.model.link import Link
 from fdspec.model.toml_lines import key_lines, line_of, parsed
 
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 Storeys = list[Positive]
+
+
+PositiveOrInf = Annotated[float, Field(gt=0.0)]
+LessThanOne = Annotated[float, Field(lt=1.0, allow_inf_nan=False)]
+DEVICES = (
+    "storey_height",
+    "yield_shear",
+    "hardening_ratio",
+    "gravity_load",
+    "slot_length",
+    "slot_stiffness",
+    "recentring_stiffness",
+    "collapse_drift",
+)
+
+
+class _Link(BaseModel):
+    """What a table ``[[links]]`` may hold: the parameters of `Link`."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    upper: int
+    lower: int
+    stiffness: Positive
+    slip_force: Annotated[float, Field(ge=0.0)]
+    mass: NotNegative = 0.0
+    kinetic_slip_force: NotNegative | None = None
+    slot_length: PositiveOrInf | None = None
+    slot_stiffness: NotNegative | None = None
+    recentring_stiffness: NotNegative | None = None
+    recentring_preload: NotNegative | None = None
+    friction_stiffness: NotNegative | None = None
+    name: str | None = None
 
 
 class _File(BaseModel):
@@ -31,6 +65,15 @@ class _File(BaseModel):
     brace_mass: list[NotNegative] | NotNegative = 50.0
     damping_ratio: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.05
     kinetic_ratio: Annotated[float, Field(ge=0.0, le=1.0)] = 1.0
+    storey_height: list[Positive] | Positive | None = None
+    yield_shear: list[PositiveOrInf] | PositiveOrInf | None = None
+    hardening_ratio: list[LessThanOne] | LessThanOne = 0.0
+    gravity_load: list[NotNegative] | NotNegative | None = None
+    slot_length: list[PositiveOrInf] | PositiveOrInf | None = None
+    slot_stiffness: list[NotNegative] | NotNegative | None = None
+    recentring_stiffness: list[NotNegative] | NotNegative | None = None
+    collapse_drift: list[PositiveOrInf] | PositiveOrInf | None = None
+    links: list[_Link] = []
 
     @model_validator(mode="after")
     def _told_once(self) -> _File:
@@ -52,7 +95,9 @@ def read_building(path: str | Path) -> Building:
     number or one a storey (a brace of 0 is none), or in their place `bare_period` and `braced_period`, s,
     which fix one stiffness for all storeys and one for all braces; `brace_mass`, kg, 50 unless given;
     `damping_ratio` in every mode of the bare frame, 0.05 unless given; `kinetic_ratio`, kinetic over static
-    friction, 1 unless given.
+    friction, 1 unless given. What `Building` knows of devices goes by the same names (`storey_height`,
+    `yield_shear`, `hardening_ratio`, `gravity_load`, `slot_length`, `slot_stiffness`, `recentring_stiffness`,
+    `collapse_drift`), and each link is a table ``[[links]]`` with the parameters of `Link`.
 
     Parameters
     ----------
@@ -81,7 +126,18 @@ def read_building(path: str | Path) -> Building:
         file = _File.model_validate(table)
     except ValidationError as error:
         raise InvalidInput("\n".join(_mistakes(path, text, error))) from None
-    options: dict[str, Any] = {"damping": ModalDamping(file.damping_ratio)}
+    options: dict[str, Any] = {
+        "damping": ModalDamping(file.damping_ratio),
+        **{name: getattr(file, name) for name in DEVICES},
+    }
+    try:
+        options["links"] = [Link(**link.model_dump()) for link in file.links]
+        return _building(file, options)
+    except InvalidInput as error:
+        raise InvalidInput(f"{path}: {error}") from None
+
+
+def _building(file: _File, options: dict[str, Any]) -> Building:
     if file.bare_period is not None and file.braced_period is not None:
         return Building.from_periods(
             file.floor_mass,

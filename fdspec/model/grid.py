@@ -41,6 +41,9 @@ class Grid:
     normal_force_factor : float
         Newtons on the sliding surface for each newton of `pretension`: 2 n_b where `pretension` is the force
         of one of n_b bolts that clamp two faces.
+    storey_height, yield_shear, hardening_ratio, gravity_load, slot_length, slot_stiffness,
+    recentring_stiffness : float
+        Devices of all frames alike, as for `fdspec.Building`.
     intensity : array_like, shape (n_i,), optional
         Factors on the ground motions; without them the cube has no such axis.
 
@@ -68,6 +71,13 @@ class Grid:
     kinetic_friction_coefficient: float | None = None
     normal_force_factor: float = 1.0
     brace_damping_ratio: float = 0.0
+    storey_height: float | None = None
+    yield_shear: float | None = None
+    hardening_ratio: float = 0.0
+    gravity_load: float | None = None
+    slot_length: float | None = None
+    slot_stiffness: float | None = None
+    recentring_stiffness: float | None = None
     intensity: FloatArray | None = None
 
     def __post_init__(self) -> None:
@@ -101,10 +111,22 @@ class Grid:
         return np.ones(1) if self.intensity is None else self.intensity
 
     @property
+    def devices(self) -> dict[str, Any]:
+        """The device parameters that are given, by name; empty for frames without devices."""
+        given = {name: getattr(self, name) for name in DEVICE_FIELDS if getattr(self, name) is not None}
+        acting = [
+            name for name in given if name not in ("hardening_ratio", "storey_height", "slot_stiffness")
+        ]
+        there = any(given[name] not in (0.0, np.inf) for name in acting)
+        return given if there else {}
+
+    @property
     def parameters(self) -> dict[str, Any]:
-        """All fields by name, the intensity only where it is an axis: how the cube came about."""
-        given = {name: getattr(self, name) for name in GRID_FIELDS}
-        return {name: value for name, value in given.items() if name != "intensity" or value is not None}
+        """All fields by name, of devices and intensity those that are there: how a cube was made."""
+        absent = set(DEVICE_FIELDS) - set(self.devices)
+        if self.intensity is None:
+            absent.add("intensity")
+        return {name: getattr(self, name) for name in GRID_FIELDS if name not in absent}
 
     @property
     def shape(self) -> tuple[int, int, int]:
@@ -127,6 +149,16 @@ class Grid:
         )
 
 
+DEVICE_FIELDS: Final = (
+    "storey_height",
+    "yield_shear",
+    "hardening_ratio",
+    "gravity_load",
+    "slot_length",
+    "slot_stiffness",
+    "recentring_stiffness",
+)
+
 GRID_FIELDS: Final = tuple(field.name for field in fields(Grid))
 
 
@@ -148,6 +180,19 @@ def contradictions(values: Mapping[str, Any]) -> list[tuple[str, str]]:
         )
     if static == 0.0 and np.isinf(values["pretension"][-1]):
         found.append(("friction_coefficient", "must be positive where pretension is infinite, got 0"))
+    length, bearing = values["slot_length"], values["slot_stiffness"]
+    if length is not None and length < np.inf and not bearing:
+        found.append(("slot_stiffness", f"must be positive where slot_length is given ({length:g} m)"))
+    gravity, height = values["gravity_load"], values["storey_height"]
+    if gravity:
+        longest = float(values["period"][-1])
+        stiffness = values["floor_mass"] * (2.0 * np.pi / longest) ** 2
+        if height is None:
+            found.append(("storey_height", "must be given, in m, where gravity_load is"))
+        elif gravity / height >= stiffness:
+            taken = f"{gravity / height:g} N/m over storey_height"
+            left = f"{stiffness:g} N/m of the frame of {longest:g} s"
+            found.append(("gravity_load", f"is beyond elastic stability: {taken}, against {left}"))
     return found
 
 
@@ -216,8 +261,19 @@ def _number(value: object, *, zero: bool = False, below: float = np.inf) -> floa
     return number
 
 
-def _optional_number(value: object) -> float | None:
-    return None if value is None else _number(value, zero=True)
+def _optional_number(value: object, *, zero: bool = True, infinite: bool = False) -> float | None:
+    if value is None or (infinite and isinstance(value, float | int) and value == np.inf):
+        return value
+    return _number(value, zero=zero)
+
+
+def _less_than_one(value: object) -> float:
+    given = np.asarray(value)
+    if given.ndim != 0 or given.dtype.kind not in "iuf" or not np.isfinite(given):
+        raise ValueError(f"must be a number, got {value!r:.60}")
+    if float(given) >= 1.0:
+        raise ValueError(f"must be less than 1, got {float(given):g}")
+    return float(given)
 
 
 _CHECKS: Final[Mapping[str, Callable[[object], FloatArray | float | None]]] = {
@@ -231,5 +287,12 @@ _CHECKS: Final[Mapping[str, Callable[[object], FloatArray | float | None]]] = {
     "kinetic_friction_coefficient": _optional_number,
     "normal_force_factor": _number,
     "brace_damping_ratio": lambda value: _number(value, zero=True, below=1.0),
+    "storey_height": lambda value: _optional_number(value, zero=False),
+    "yield_shear": lambda value: _optional_number(value, zero=False, infinite=True),
+    "hardening_ratio": _less_than_one,
+    "gravity_load": _optional_number,
+    "slot_length": lambda value: _optional_number(value, zero=False, infinite=True),
+    "slot_stiffness": _optional_number,
+    "recentring_stiffness": _optional_number,
     "intensity": lambda value: None if value is None else axis(value),
 }

@@ -161,6 +161,7 @@ class GroundMotion:
         return self.rescaled(factor, f"scaled by {factor!r} to a PGA of {pga!r} m/s2")
 
     def rescaled(self, factor: float, step: str) -> GroundMotion:
+        """Return this motion times `factor`, with `step`, which says what it was for, in its history."""
         with np.errstate(over="ignore"):  # an overflow is refused, with its reason, by the new motion
             acceleration = self.acceleration * factor
         return replace(

@@ -46,6 +46,9 @@ BRACE_FREE: Final = 10.0
 PER_STOREY: Final = 0.8e-6
 """s for one history of an N-storey building, for each step and N^1.5."""
 
+PER_DEVICE: Final = 8e-6
+"""s for one history of a building with devices, for each step and N^1.5."""
+
 TRIED: Final = 50
 """Points of an axis that estimates look at."""
 
@@ -59,6 +62,9 @@ def seconds_of_sweep(grid: Grid, motions: Sequence[GroundMotion], certify: bool 
     found = []
     for motion in motions:
         steps = np.maximum(1.0, np.ceil(held * motion.dt)) - 1.0
+        if grid.devices:
+            found.append(float(steps.mean() + 1.0) * motion.n * grid.size * PER_DEVICE)
+            continue
         swings = np.maximum(0.0, brace * motion.dt - BRACE_FREE)
         rate = PER_SAMPLE + PER_STEP * steps + PER_BRACE_STEP * swings
         found.append(float(rate.mean()) * motion.n * grid.size * (1.35 if certify else 1.0))
@@ -74,6 +80,8 @@ def seconds_of_history(building: Building, dt: float, samples: float) -> float:
     moving = mass > 0.0
     fastest = float(np.sqrt(np.max(np.concatenate([floor, brace])[moving] / mass[moving])))
     steps = max(1.0, fastest * dt)
+    if building.has_devices:
+        return samples * steps * PER_DEVICE * math.pow(building.n_storeys, 1.5)
     if building.n_storeys == 1:
         return samples * (PER_SAMPLE + PER_BRACE_STEP * steps)
     return samples * steps * PER_STOREY * math.pow(building.n_storeys, 1.5)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from typing import Any
 
@@ -10,7 +11,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from fdspec.engines.step_count import refuse_endless
-from fdspec.engines.trajectory import Course, FloatArray, Span
+from fdspec.engines.trajectory import Course, CourseWithDevices, DeviceCourse, FloatArray, Span
 from fdspec.errors import IntegrationError, InvalidInput
 from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.model.building import Building
@@ -36,6 +37,7 @@ def simulate(
     free_vibration: float = 0.0,
     initial_displacement: ArrayLike | None = None,
     initial_velocity: ArrayLike | None = None,
+    start_from: xr.Dataset | None = None,
     max_steps: float | None = None,
 ) -> xr.Dataset:
     """Integrate one history exactly, event by event, or by another method; return its course in time.
@@ -61,6 +63,11 @@ def simulate(
     max_steps : float, optional
         Most steps that the exact method may take, 1e9 (minutes) unless given or set by the environment
         variable ``FDSPEC_MAX_STEPS``: a slip of a decimal in a mass or in dt would otherwise take days.
+    start_from : xarray.Dataset, optional
+        A history of the same building, from `simulate` or a file, at whose end this one begins: an aftershock
+        after a mainshock.  To the bit as if both motions were one, where the second begins with the sample
+        that the first ends with and no free vibration lies between; peaks, travels and energies are those of
+        the second motion alone.
 
     Returns
     -------
@@ -108,18 +115,42 @@ def simulate(
         ]
     )
     other = chosen_method(method)
+    resume = None if start_from is None else _end_of(start_from, building)
+    if resume is not None:
+        if initial_displacement is not None or initial_velocity is not None:
+            raise InvalidInput(
+                "start_from gives the start: leave initial_displacement and initial_velocity out"
+            )
+        if other is not None:
+            raise InvalidInput(f"start_from needs method 'exact', got {other.name!r}")
     if other is None:
         refuse_endless(building, motion.dt, motion.n - 1 + span.free_steps, max_steps)
     if other is not None:
+        if building.has_devices:
+            raise InvalidInput(
+                f"method {other.name!r} knows frames, braces and friction alone; yielding columns, slots, "
+                "gravity and links need the exact method"
+            )
         course = other.integrate(building, motion, span, start)
+    elif building.has_devices:
+        from fdspec.engines.devices import integrate_devices
+
+        course = integrate_devices(building, motion, span, start, resume)
     elif building.n_storeys == 1:
         from fdspec.engines.single_storey import integrate_single_storey
 
-        course = integrate_single_storey(building, motion, span, start)
+        course = integrate_single_storey(building, motion, span, start, resume)
     else:
         from fdspec.engines.many_storeys import integrate_many_storeys
 
-        course = integrate_many_storeys(building, motion, span, start)
+        course = integrate_many_storeys(building, motion, span, start, resume)
+    if isinstance(course, CourseWithDevices) and course.devices.collapse_storey > 0:
+        raise IntegrationError(
+            f"the history of {building!r} under {motion.name or 'the motion'} ended with status collapsed: "
+            f"the drift of storey {course.devices.collapse_storey} reached its limit of "
+            f"{course.devices.collapse_drift:g} m at {course.devices.collapse_time:.4f} s "
+            "(collapse_drift of the building sets the limit)"
+        )
     if course.status != 0:
         raise IntegrationError(
             f"the history of {building!r} under {motion.name or 'the motion'} ended with status "
@@ -127,6 +158,20 @@ def simulate(
         )
     solved = building if other is None else other.model(building)
     return _dataset(solved, motion, span, start, course, {} if other is None else other.parameters)
+
+
+def _end_of(history: object, building: Building) -> FloatArray:
+    """The state in which a history of this very building ended."""
+    if not isinstance(history, xr.Dataset) or "end_state" not in history:
+        raise InvalidInput(
+            "start_from must be a history that fdspec.simulate has computed by the exact method"
+        )
+    told = json.loads(history.attrs.get("parameters", "{}"))
+    ours = json.loads(provenance("", building.parameters, ())["parameters"])
+    for name, value in ours.items():
+        if name in building.parameters and told.get(name) != value:
+            raise InvalidInput(f"start_from must be a history of the same building, but its {name} differs")
+    return np.array(history["end_state"].values, dtype=np.float64)
 
 
 def _span(motion: GroundMotion, dt_out: object, free_vibration: object) -> Span:
@@ -253,6 +298,12 @@ def _dataset(
         "kinetic_slip_force": ("storey", building.kinetic_slip_force),
         **{name: ((), value) for name, value in told.items()},
     }
+    if course.end is not None:
+        variables["end_state"] = ("state", course.end)
+    if isinstance(course, CourseWithDevices):
+        variables |= _of_devices(building, course.devices)
+        if building.links:
+            coords["link"] = [link.name or f"link {i}" for i, link in enumerate(building.links, start=1)]
     dataset = xr.Dataset(variables, coords=coords)
     dataset.attrs = provenance(
         "Response history of a building with friction dampers",
@@ -268,3 +319,36 @@ def _dataset(
         command="fdspec.simulate",
     )
     return describe(dataset, HISTORY)
+
+
+def _of_devices(building: Building, devices: DeviceCourse) -> dict[str, Any]:
+    """Return the variables that only buildings with devices have."""
+    each = ("time", "storey")
+    variables: dict[str, Any] = {
+        "kinetic_energy": ("time", devices.kinetic_energy),
+        "strain_energy": ("time", devices.strain_energy),
+        "bearing_energy": ("time", devices.bearing_energy),
+        "gravity_energy": ("time", devices.gravity_energy),
+        "yielding_energy": ("time", devices.column_work.sum(axis=1)),
+        "links_energy": ("time", devices.link_work.sum(axis=1)),
+        "column_shear": (each, devices.column_shear),
+        "plastic_deformation": (each, devices.plastic_deformation),
+    }
+    for name, values in devices.storeys.items():
+        if name != "peak_drift_ratio" or not np.isnan(building.storey_height).any():
+            variables[name] = ("storey", values.astype(HISTORY[name].dtype))
+    if building.links:
+        over_time, link = ("time", "link"), "link"
+        variables["link_slip"] = (over_time, devices.link_slip)
+        variables["link_force"] = (over_time, devices.link_force)
+        variables["link_phase"] = (over_time, devices.link_phase.astype(np.int8))
+        for name in (
+            "peak_link_slip",
+            "residual_link_slip",
+            "peak_link_force",
+            "link_energy",
+            "link_events",
+            "link_contacts",
+        ):
+            variables[name] = (link, getattr(devices, name))
+    return variables

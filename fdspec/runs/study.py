@@ -27,14 +27,17 @@ from fdspec.model.grid import GRID_FIELDS, FloatArray, Grid, checked, contradict
 from fdspec.model.motion import GroundMotion
 from fdspec.model.toml_lines import key_lines, line_of, parsed
 from fdspec.records import catalogue, load_record, read_record
-from fdspec.variables import CUBE
+from fdspec.variables import CUBE, demand_variables
 
 AXES: Final = ("stiffness_ratio", "pretension", "period", "intensity")
 
 STUDY_RECORDS: Final = ("FSR1", "FSR2", "FSR3", "FMR1", "FMR2", "FMR3", "FHR1", "FHR2", "FHR3")
 
 _OUTPUTS: Final = tuple(v for v in CUBE.values() if v.dims[:1] == ("record",) and len(v.dims) > 1)
-OUTPUTS: Final = tuple(v.name for v in _OUTPUTS if not v.on_request)
+DEMANDS: Final = tuple(v.name for v in demand_variables(()))
+"""What it computes of frames with columns that yield, gravity, slots or re-centring springs alone."""
+
+OUTPUTS: Final = tuple(v.name for v in _OUTPUTS if not v.on_request and v.name not in DEMANDS)
 """What a study computes unless it names its outputs: what depends on more than the record."""
 
 ON_REQUEST: Final = tuple(v.name for v in _OUTPUTS if v.on_request)
@@ -183,6 +186,8 @@ normal_force_factor = {grid.normal_force_factor!r}
 # Of the brace on its own.
 brace_damping_ratio = {grid.brace_damping_ratio!r}
 
+# Devices of all frames alike; left out, there are none. m, N, N/m.
+{_device_lines(grid)}
 # Variables of the cube; left out, these. Only on request: {", ".join(ON_REQUEST)}.
 {"# " if self.outputs is None else ""}outputs = {_strings(OUTPUTS if self.outputs is None else self.outputs)}
 # Check the energy balance of every history.
@@ -331,7 +336,7 @@ def _distinct(values: tuple[Any, ...]) -> tuple[Any, ...]:
 
 
 def _output(value: str) -> str:
-    known = (*OUTPUTS, *ON_REQUEST)
+    known = (*OUTPUTS, *DEMANDS, *ON_REQUEST)
     if value not in known:
         near = difflib.get_close_matches(value, known, n=1)
         hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
@@ -361,6 +366,25 @@ def _study_file() -> type[BaseModel]:
 
 
 _StudyFile: Final = _study_file()
+
+
+_DEVICE_EXAMPLES: Final = {
+    "storey_height": 3.0,
+    "yield_shear": 100e3,
+    "hardening_ratio": 0.02,
+    "gravity_load": 200e3,
+    "slot_length": 0.03,
+    "slot_stiffness": 50e6,
+    "recentring_stiffness": 1e6,
+}
+
+
+def _device_lines(grid: Grid) -> str:
+    given = grid.devices
+    return "".join(
+        f"{name} = {given[name]!r}\n" if name in given else f"# {name} = {example!r}\n"
+        for name, example in _DEVICE_EXAMPLES.items()
+    )
 
 
 def _axis_text(axis: FloatArray) -> str:

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from fdspec.errors import InvalidInput
 from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.methods.batch import integrate_by_method
+from fdspec.model.building import Building, ModalDamping
 from fdspec.model.grid import Grid
 from fdspec.model.motion import GroundMotion
 from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_sweep
@@ -25,7 +26,7 @@ from fdspec.runs.cube import assemble, chosen, named
 from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.threads import Task, cores, fan_out, plan
-from fdspec.variables import CUBE, INTENSITY_CUBE, STUDY_DIMS, Registry
+from fdspec.variables import CUBE, INTENSITY_CUBE, STUDY_DIMS, Registry, demand_variables
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -62,7 +63,10 @@ BRACED: Final = {
 STRAIN: Final = ("strain_energy_area", "peak_strain_energy")
 """Results of a pass of their own over every history."""
 
-RESPONSES: Final = tuple(v.name for v in CUBE.values() if v.dims == STUDY_DIMS)
+DEMANDS: Final = tuple(v.name for v in demand_variables(()))
+"""Outputs of frames with devices alone."""
+
+RESPONSES: Final = tuple(v.name for v in CUBE.values() if v.dims == STUDY_DIMS and v.name not in DEMANDS)
 _KNOWN: Final = (*RESPONSES, *BARE, *BRACED)
 OUTPUTS: Final = tuple(name for name in _KNOWN if not CUBE[name].on_request)
 ON_REQUEST: Final = tuple(name for name in _KNOWN if CUBE[name].on_request)
@@ -83,6 +87,13 @@ def sweep(
     kinetic_friction_coefficient: float | None = None,
     normal_force_factor: float = 1.0,
     brace_damping_ratio: float = 0.0,
+    storey_height: float | None = None,
+    yield_shear: float | None = None,
+    hardening_ratio: float = 0.0,
+    gravity_load: float | None = None,
+    slot_length: float | None = None,
+    slot_stiffness: float | None = None,
+    recentring_stiffness: float | None = None,
     intensity: ArrayLike | None = None,
     outputs: Iterable[str] | None = None,
     certify: bool = True,
@@ -114,6 +125,12 @@ def sweep(
         Of the frame without its brace, and of the brace on its own.
     friction_coefficient, kinetic_friction_coefficient, normal_force_factor : float
         Slip force = friction_coefficient * normal_force_factor * pretension.
+    storey_height, yield_shear, hardening_ratio, gravity_load, slot_length, slot_stiffness,
+    recentring_stiffness : float, optional
+        Devices of all frames alike, as for `fdspec.Building`: columns that yield, gravity, slots, re-centring
+        springs.  With them each history is integrated by itself, a thousand times slower, the cube has the
+        demands of `fdspec.variables.demand_variables` too, and a history may end with the status
+        ``collapsed``.  The limits that ride along stay those of the elastic frame.
     intensity : array_like, optional
         Factors on the ground motions, positive, strictly increasing: adds the dim ``intensity`` after
         ``record``.  What is told of the records, ``pga`` among it, stays that of factor 1.
@@ -172,14 +189,25 @@ def sweep(
         kinetic_friction_coefficient=kinetic_friction_coefficient,
         normal_force_factor=normal_force_factor,
         brace_damping_ratio=brace_damping_ratio,
+        storey_height=storey_height,
+        yield_shear=yield_shear,
+        hardening_ratio=hardening_ratio,
+        gravity_load=gravity_load,
+        slot_length=slot_length,
+        slot_stiffness=slot_stiffness,
+        recentring_stiffness=recentring_stiffness,
         intensity=intensity,  # type: ignore[arg-type]
     )
     motions = named(motions)
-    wanted = chosen(OUTPUTS if outputs is None else outputs, (*OUTPUTS, *ON_REQUEST), certify)
+    usual = usual_outputs(grid)
+    wanted = chosen(usual if outputs is None else outputs, (*usual, *ON_REQUEST), certify)
     strain = [name for name in wanted if BARE.get(name, name) in STRAIN]
     other = chosen_method(method)
     if strain and other is not None:
         raise InvalidInput(f"outputs {', '.join(strain)} need method 'exact', got {other.name!r}")
+    if grid.devices and (strain or other is not None):
+        what = f"method {other.name!r}" if other is not None else f"outputs {', '.join(strain)}"
+        raise InvalidInput(f"{what}: not for frames with {', '.join(grid.devices)}")
     n_sr, n_f, n_t = grid.shape
     seconds = seconds_of_sweep(grid, motions, certify)
     refuse_endless(motions, grid, wanted, sum(seconds), store)
@@ -323,6 +351,18 @@ def timed(grid: Grid, motion: GroundMotion, certify: bool = True) -> tuple[float
     return time.thread_time() - started, int(results[..., RESULTS.index("transitions")].sum())
 
 
+def usual_outputs(grid: Grid) -> tuple[str, ...]:
+    """Return what a sweep computes unless it is told otherwise."""
+    return (*OUTPUTS, *_demands(grid))
+
+
+def _demands(grid: Grid) -> tuple[str, ...]:
+    """Return what only a cube of frames with devices has."""
+    if not grid.devices:
+        return ()
+    return tuple(name for name in DEMANDS if name != "peak_drift_ratio" or grid.storey_height is not None)
+
+
 def _warm() -> None:
     import fdspec.engines.batch  # noqa: F401
 
@@ -357,7 +397,7 @@ def _run_columns(
     """
     levels, slip_force, kinetic = grid.intensities, grid.slip_force, grid.kinetic_slip_force
     run = partial(_run_forces, grid, certify, strain, other, columns)
-    if scales(other):
+    if scales(grid, other):
         # R(s a, F) = s R(a, F / s): further slip forces of the same frames under the same motion.
         each = levels[:, np.newaxis]
         found, braced, bare = run((slip_force / each).ravel(), (kinetic / each).ravel(), motion)
@@ -368,12 +408,13 @@ def _run_columns(
     return cast("Columns", tuple(np.stack(part, axis=1) for part in zip(*runs, strict=True)))
 
 
-def scales(other: Method | None) -> bool:
-    """Whether all strengths of a sweep's frames, and its method, scale with the motion.
+def scales(grid: Grid, other: Method | None) -> bool:
+    """Whether a sweep's frames have no strength or length but their slip forces, and its method none either.
 
-    Other methods have tolerances in absolute terms.
+    Columns yield at a shear of their own, slots end at a length, frames collapse at a drift; other methods
+    have tolerances in absolute terms.
     """
-    return other is None
+    return other is None and not grid.devices
 
 
 def _growth(levels: FloatArray, part: FloatArray) -> FloatArray:
@@ -399,8 +440,10 @@ def _run_forces(
     from fdspec.engines.batch import integrate_columns
 
     frames = _frames(grid, columns)
-    exact = slice(None) if other is None else slice(0)
+    exact = slice(None) if other is None and not grid.devices else slice(0)
     braced, results = integrate_columns(frames, slip_force[exact], kinetic[exact], motion, certify=certify)
+    if grid.devices:
+        results = _run_devices(grid, frames, slip_force, kinetic, motion)
     if other is not None:
         results = integrate_by_method(other, frames, slip_force, kinetic, motion)
     bare = frames[columns < grid.period.size].copy()  # the first stiffness ratio's pairs stand for all
@@ -414,6 +457,32 @@ def _run_forces(
         results = np.concatenate([results, added], axis=-1)
         free = np.concatenate([free, strain_of_columns(bare, *never, motion)[:, 0]], axis=-1)
     return results, braced, free
+
+
+def _run_devices(
+    grid: Grid, frames: FloatArray, slip_force: FloatArray, kinetic: FloatArray, motion: GroundMotion
+) -> FloatArray:
+    """Integrate frames (m, 6) with devices, all pretensions: (m, n_f, results) in the order of `_rows`."""
+    from fdspec.engines.devices import peaks_of
+
+    rows = _rows(grid)
+    results = np.empty((frames.shape[0], grid.pretension.size, len(rows)))
+    for i, (m_f, _, k_f, m_d, c_d, k_d) in enumerate(frames):
+        for j, forces in enumerate(zip(slip_force, kinetic, strict=True)):
+            damping = ModalDamping(grid.damping_ratio)
+            building = Building(m_f, k_f, m_d, k_d, *forces, damping, c_d, **grid.devices)
+            storey, whole = peaks_of(building, motion)
+            found = {name: float(values[0]) for name, values in storey.items()} | whole
+            found["peak_base_shear"] = found["peak_storey_shear"]
+            results[i, j] = [found[name] for name in rows]
+    return results
+
+
+def _rows(grid: Grid) -> tuple[str, ...]:
+    """Return the results of a history, in their order."""
+    from fdspec.kernels.storey.history import RESULTS
+
+    return (*RESULTS, *_demands(grid)) if grid.devices else (*RESULTS, *STRAIN)
 
 
 def _block(
@@ -438,9 +507,7 @@ def _variables(
     wanted: Sequence[str],
 ) -> dict[str, NDArray[Any]]:
     """Put what the tasks returned where it stands in the cube."""
-    from fdspec.kernels.storey.history import RESULTS
-
-    rows = (*RESULTS, *STRAIN)
+    rows = _rows(grid)
     n_sr, n_f, n_t = grid.shape
     n_i = grid.intensities.size
     responses: dict[str, NDArray[Any]] = {

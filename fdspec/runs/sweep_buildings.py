@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from fdspec.model.building import Frame
+from fdspec.model.building import Building, Frame
 from fdspec.model.building_grid import BuildingGrid, Buildings
 from fdspec.model.motion import GroundMotion
 from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_history
@@ -20,7 +20,7 @@ from fdspec.runs.cube import assemble, chosen, named
 from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.threads import Task, cores, fan_out, plan
-from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS, INTENSITY_BUILDING_CUBE, Registry
+from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS, INTENSITY_BUILDING_CUBE, Registry, demand_variables
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -34,7 +34,11 @@ LONG: Final = 60.0
 log = logging.getLogger(__name__)
 
 LIMITS: Final = ("elastic_acceleration", "braced_acceleration")
-RESPONSES: Final = tuple(v.name for v in BUILDING_CUBE.values() if v.dims[:4] == BUILDING_DIMS)
+DEMANDS: Final = tuple(v.name for v in demand_variables(()))
+"""Outputs of sweeps with devices alone."""
+RESPONSES: Final = tuple(
+    v.name for v in BUILDING_CUBE.values() if v.dims[:4] == BUILDING_DIMS and v.name not in DEMANDS
+)
 OUTPUTS: Final = (*RESPONSES, *LIMITS)
 
 
@@ -93,6 +97,8 @@ def sweep_buildings(
     Returns
     -------
     xarray.Dataset
+        Where a building has columns that yield, slots, gravity or links, all cells have the demands on
+        these too (`fdspec.variables.demand_variables`), and a history may end with the status ``collapsed``.
         Dims (record, building, stiffness_scale, slip_scale) and, for what each storey has of its own,
         storey; variables, units and meanings are those of `fdspec.variables.BUILDING_CUBE`, with intensities
         of `fdspec.variables.INTENSITY_BUILDING_CUBE`.
@@ -122,7 +128,8 @@ def sweep_buildings(
     """
     grid = BuildingGrid(buildings, stiffness_scale, slip_scale, intensity)
     motions = named(motions)
-    wanted = chosen(outputs, OUTPUTS, certify)
+    known = (*OUTPUTS, *_demands(grid))
+    wanted = chosen(outputs, known, certify)
     histories = grid.intensities.size * _ends(grid)[-1 if set(LIMITS) & set(wanted) else 0]
     what = f"a sweep of {len(motions) * histories:.4g} histories"
     refuse_large(8.0 * len(motions) * histories * grid.n_storeys * 2 * len(wanted), what)
@@ -151,7 +158,7 @@ def sweep_buildings(
         motions,
         tasks,
         each=1,
-        warm=_warm,
+        warm=partial(_warm, _with_devices(grid)),
         workers=workers,
         scheduler=scheduler,
         client=client,
@@ -212,8 +219,29 @@ def _frame(grid: BuildingGrid, history: int) -> Frame:
     return given._replace(properties=properties)
 
 
-def _warm() -> None:
-    import fdspec.engines.many_storeys  # noqa: F401
+def _building(grid: BuildingGrid, history: int) -> Building:
+    """Return the building of one cell, with its dampers scaled."""
+    _, n_k, n_s = grid.shape
+    column, s = divmod(history, n_s)
+    b, k = divmod(column, n_k)
+    return grid.buildings[b].with_changes(
+        brace_stiffness=grid.brace_stiffness[b, k],
+        brace_damping=grid.brace_damping[b, k],
+        slip_force=grid.slip_force[b, s],
+        kinetic_slip_force=grid.kinetic_slip_force[b, s],
+    )
+
+
+def _with_devices(grid: BuildingGrid) -> bool:
+    """Whether any building has devices: then all cells have the results that devices add."""
+    return any(building.has_devices for building in grid.buildings)
+
+
+def _warm(devices: bool) -> None:
+    import fdspec.engines.many_storeys
+
+    if devices:
+        import fdspec.engines.devices  # noqa: F401
 
 
 def _run(
@@ -223,17 +251,58 @@ def _run(
 
     each: histories at one intensity; those of the first come first.
     """
-    from fdspec.engines.many_storeys import peaks_of
-
-    cells = _ends(grid)[0]
     levels, of_level = np.divmod(histories, each)
     factors = {int(level): float(grid.intensities[level]) for level in np.unique(levels)}
     shaking = {level: motion if s == 1.0 else motion.times(s) for level, s in factors.items()}
     results = [
-        peaks_of(_frame(grid, history), shaking[level], certify=certify and history < cells)
+        _run_one(grid, certify, history, shaking[level])
         for level, history in zip(levels.tolist(), of_level.tolist(), strict=True)
     ]
     return np.stack([by_storey for by_storey, _ in results]), np.stack([totals for _, totals in results])
+
+
+def _run_one(
+    grid: BuildingGrid, certify: bool, history: int, motion: GroundMotion
+) -> tuple[FloatArray, FloatArray]:
+    """Integrate one history by the engine for its building: rows of `_rows` (rows, N), and TOTALS.
+
+    The limits that ride along are those of the elastic frame. Beside a building with devices, one without
+    is integrated by both engines: its peaks are those of the engine of frames, to the bit.
+    """
+    from fdspec.engines.many_storeys import peaks_of
+    from fdspec.kernels.frame.history import STOREY_RESULTS, TOTALS
+
+    cell = history < _ends(grid)[0]
+    if not _with_devices(grid):
+        return peaks_of(_frame(grid, history), motion, certify=certify and cell)
+    if not cell:
+        by_storey, totals = peaks_of(_frame(grid, history), motion, certify=False)
+        missing = np.zeros((len(_rows(grid)) - len(STOREY_RESULTS), grid.n_storeys))
+        return np.concatenate([by_storey, missing]), totals
+    from fdspec.engines.devices import peaks_of as peaks_with_devices
+
+    building = _building(grid, history)
+    storeys, whole = peaks_with_devices(building, motion)
+    table = np.stack([storeys[name] for name in _rows(grid)])
+    totals = np.array([whole[name] for name in TOTALS])
+    if not building.has_devices:
+        table[: len(STOREY_RESULTS)], totals = peaks_of(_frame(grid, history), motion, certify=certify)
+    return table, totals
+
+
+def _rows(grid: BuildingGrid) -> tuple[str, ...]:
+    """Return the names of what each storey has of its own."""
+    from fdspec.kernels.frame.history import STOREY_RESULTS
+
+    return (*STOREY_RESULTS, *_demands(grid))
+
+
+def _demands(grid: BuildingGrid) -> tuple[str, ...]:
+    """Return what only a cube with devices in it has of each storey."""
+    if not _with_devices(grid):
+        return ()
+    known = all(not np.isnan(building.storey_height).any() for building in grid.buildings)
+    return tuple(name for name in DEMANDS if known or name != "peak_drift_ratio")
 
 
 def _variables(
@@ -244,19 +313,20 @@ def _variables(
     wanted: Sequence[str],
 ) -> dict[str, NDArray[np.generic]]:
     """Put what the tasks returned where it stands in the cube."""
-    from fdspec.kernels.frame.history import STOREY_RESULTS, TOTALS
+    from fdspec.kernels.frame.history import TOTALS
 
+    rows = _rows(grid)
     cells, braced, bare = _ends(grid)
     n_i = grid.intensities.size
     histories = 1 + max(int(task.items.max()) for task in tasks)
-    by_storey = np.empty((len(STOREY_RESULTS), n_r, histories, grid.n_storeys))
+    by_storey = np.empty((len(rows), n_r, histories, grid.n_storeys))
     totals = np.empty((len(TOTALS), n_r, histories))
     for (r, items), (of_storeys, of_all) in zip(tasks, parts, strict=True):
         by_storey[:, r, items] = of_storeys.transpose(1, 0, 2)
         totals[:, r, items] = of_all.T
-    by_storey = by_storey.reshape(len(STOREY_RESULTS), n_r, n_i, histories // n_i, grid.n_storeys)
+    by_storey = by_storey.reshape(len(rows), n_r, n_i, histories // n_i, grid.n_storeys)
     totals = totals.reshape(len(TOTALS), n_r, n_i, histories // n_i)
-    results = dict(zip(STOREY_RESULTS, by_storey, strict=True)) | dict(zip(TOTALS, totals, strict=True))
+    results = dict(zip(rows, by_storey, strict=True)) | dict(zip(TOTALS, totals, strict=True))
     results["peak_base_shear"] = results["peak_storey_shear"][..., 0]
     results["residual_drift"] = np.diff(results["residual_displacement"], prepend=0.0)
     acceleration = results["peak_acceleration"]

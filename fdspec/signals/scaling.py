@@ -98,7 +98,7 @@ def read_target(path: str | Path, units: str | None = None) -> Target:
                 except ValueError:
                     if rows:
                         raise InvalidInput(
-                            f"{path}, line {number}: {','.join(row)!r:.80} is not a period and an acceleration"
+                            f"{path}, line {number}: {','.join(row)!r:.80} is no period and acceleration"
                         ) from None
                     heading += " ".join(cells)
                     continue
@@ -178,8 +178,8 @@ def scaled_to_spectrum(
     ----------
     motion : GroundMotion
     target : float or Target
-        Pseudo-acceleration, m/s2: of the one period, or the geometric mean over the band; or a spectrum, which
-        the scaled one fits best in the mean square of logarithms.
+        Pseudo-acceleration, m/s2: of the one period, or the geometric mean over the band; or a spectrum,
+        which the scaled one fits best in the mean square of logarithms.
     period : float, or two of them, or more
         s; two are the ends of a band, for which `BAND_PERIODS` in it stand; more are the periods themselves.
     damping_ratio : float

@@ -9,6 +9,7 @@ from typing import Final, NamedTuple
 from fdspec.errors import FdspecError, InvalidInput
 from fdspec.verification import (
     closed_forms,
+    devices,
     energy,
     engines,
     fixed_step,
@@ -31,6 +32,7 @@ class Family(NamedTuple):
 
 FAMILIES: Final = (
     Family("closed-forms", closed_forms.rows),
+    Family("devices", devices.rows),
     Family("steady-states", steady_states.rows),
     Family("linear-limits", linear_limits.rows),
     Family("engines", engines.rows),

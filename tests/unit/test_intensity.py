@@ -84,6 +84,20 @@ def test_other_methods_run_the_scaled_record() -> None:
             np.testing.assert_array_equal(cube[name].sel(intensity=s).values, alone[name].values)
 
 
+def test_frames_with_devices_run_the_scaled_record() -> None:
+    axes = {"stiffness_ratio": [4.0], "pretension": [20e3, 60e3], "period": [0.5]}
+    devices = {"storey_height": 3.0, "yield_shear": 30e3, "slot_length": 0.004, "slot_stiffness": 5e6}
+    levels = [0.5, 1.0, 2.5]
+    cube = fdspec.sweep(MOTIONS[1:], intensity=levels, **devices, **axes)
+    assert cube["ductility"].dims == ("record", "intensity", "stiffness_ratio", "pretension", "period")
+    for s in levels:
+        alone = fdspec.sweep([MOTIONS[1].times(s)], **devices, **axes)
+        for name in alone.data_vars:
+            np.testing.assert_array_equal(cube[name].sel(intensity=s).values, alone[name].values)
+    grown = cube["peak_displacement"].sel(intensity=2.5) / cube["peak_displacement"].sel(intensity=0.5)
+    assert abs(grown - 5.0).max() > 0.1
+
+
 def test_buildings() -> None:
     building = fdspec.Building.from_periods([30e3, 20e3], 0.5, 0.3, slip_force=[40e3, 20e3], brace_mass=50.0)
     axes = {"slip_scale": [0.5, 2.0], "stiffness_scale": [1.0, 2.0]}

@@ -90,7 +90,12 @@ STOREY_RESULTS = (
     "storey_transitions",
     "storey_friction_energy",
 )
-"""Rows of ``by_storey`` (11, N); the first six are the peaks."""
+"""First rows of ``by_storey`` (18, N); the first six of them are the peaks."""
+
+END = len(STOREY_RESULTS)
+END_ROWS = 7
+"""First row and number of the rows that follow, the state at the end: displacement, velocity, offset, sliding
+velocity, phase, and how the next segment begins."""
 
 COUNTS = 9
 """Row of the number of changes of phase."""
@@ -164,12 +169,21 @@ def history(
             state[OFFSET, i] = 0.0
         tally[0, i] = state[OFFSET, i]
         set_phase(frame, model, phase, i)
+    resumes = start.shape[0] == END_ROWS
+    if resumes:
+        for i in range(size):
+            for k in range(4):
+                state[k, i] = start[k, i]
+            tally[0, i] = state[OFFSET, i]
+            phase[i] = int(start[4, i])
+            fresh[i] = int(start[5, i])
+            touching[i] = int(start[6, i])
     stored = stored_energy(frame, dense_stiffness, state)
     transitions = 0
     # Massless braces first: what they do at once is felt in the storeys below, and not the other way.
     for turn in range(2):
         for i in range(size):
-            if kind[i] == NO_BRACE or (kind[i] == MASSLESS) != (turn == 0):
+            if resumes or kind[i] == NO_BRACE or (kind[i] == MASSLESS) != (turn == 0):
                 continue
             reaction = reaction_now(frame, model, stiffness_lanes, damping_lanes, state, i)
             changes = 0
@@ -347,6 +361,11 @@ def history(
         by_storey[7, i] = state[DISPLACEMENT, i] - state[OFFSET, i]
         by_storey[8, i] = travel
         by_storey[10, i] = work
+        for k in range(4):
+            by_storey[END + k, i] = state[k, i]
+        by_storey[END + 4, i] = phase[i]
+        by_storey[END + 5, i] = fresh[i]
+        by_storey[END + 6, i] = touching[i]
     error = 0.0
     if certify:
         # Net input may be zero, as over whole periods of a frame without damping; what the balance has to
@@ -423,12 +442,13 @@ def integrate(
     frame (FRAME_ROWS, N), dense_stiffness and dense_damping (N, N), or (0, 0) where there is nothing
     beside the springs and dashpots of ``frame``: see :mod:`fdspec.kernels.frame.model`.  ground: acceleration
     at the samples dt apart, m/s2, (n,); free_steps: steps of dt with the ground at rest that follow.
-    start (4, N): displacement and velocity of floors, then of braces, at t = 0.  radians: longest phase
-    of a step; extra: terms beyond those the series needs.
+    start (4, N): displacement and velocity of floors, then of braces, at t = 0; or (7, N): the rows of the
+    end of another history, from which this one goes on.  radians: longest phase of a step; extra: terms
+    beyond those the series needs.
 
     times, storeys, phases (as many as there is room for): changes of phase in the order of time.
     traces (m, len(STOREY_TRACES), N), energies (m, len(TOTAL_TRACES)): filled at k dt_out for k < m.
-    by_storey (len(STOREY_RESULTS), N), totals (len(TOTALS),): results.  viscous_energy and energy_error
+    by_storey (END + END_ROWS, N), totals (len(TOTALS),): results.  viscous_energy and energy_error
     are worked out where ``certify`` says so; traces need the first and cost it.
     """
     size = frame.shape[1]

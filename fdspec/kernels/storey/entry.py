@@ -10,7 +10,7 @@ from fdspec.kernels.mathematics.oscillator import TERMS
 from fdspec.kernels.storey.constants import plan, steps_per_sample
 from fdspec.kernels.storey.energy import N_FORMS, put_losses
 from fdspec.kernels.storey.history import history
-from fdspec.kernels.types import N_STATE, Motion, Storey
+from fdspec.kernels.types import Motion, Storey
 
 
 @entry(
@@ -21,6 +21,8 @@ from fdspec.kernels.types import N_STATE, Motion, Storey
         types.int64,
         types.float64,
         record_of(Motion),
+        types.boolean,
+        float1d,
         float1d,
         int1d,
         types.float64,
@@ -28,13 +30,17 @@ from fdspec.kernels.types import N_STATE, Motion, Storey
         float1d,
     )
 )
-def integrate(storey, ground, dt, free_steps, radians, start, times, phases, dt_out, traces, result):
-    """Integrate one history; arguments as in :func:`fdspec.kernels.storey.history.history`."""
+def integrate(
+    storey, ground, dt, free_steps, radians, start, resumes, s, times, phases, dt_out, traces, result
+):
+    """Integrate one history; arguments as in :func:`fdspec.kernels.storey.history.history`.
+
+    s (N_STATE,): the state at the end, afterwards.
+    """
     parts = steps_per_sample(storey, dt, radians)
     scheme = plan(storey, dt / parts, radians)
     forms = np.empty(N_FORMS)
     put_losses(scheme, forms)
-    s = np.empty(N_STATE)
     floor, brace, search = np.empty(TERMS), np.empty(TERMS), np.empty(TERMS)
     history(
         scheme,
@@ -44,6 +50,7 @@ def integrate(storey, ground, dt, free_steps, radians, start, times, phases, dt_
         parts,
         free_steps,
         start,
+        resumes,
         s,
         floor,
         brace,

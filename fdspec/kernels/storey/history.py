@@ -12,7 +12,7 @@ import math
 from fdspec.compiler.options import inner
 from fdspec.kernels.friction import reaction
 from fdspec.kernels.storey.energy import stored_energy
-from fdspec.kernels.storey.step import begin, walk
+from fdspec.kernels.storey.step import begin, resume, walk
 from fdspec.kernels.types import (
     ANCHOR,
     ENERGY_NOT_CLOSED,
@@ -114,6 +114,7 @@ def history(
     parts,
     free_steps,
     start,
+    resumes,
     s,
     floor,
     brace,
@@ -128,10 +129,14 @@ def history(
 
     ground: acceleration at the samples, m/s2, (n,); parts: steps of the plan in each dt;
     free_steps: record steps with the ground at rest that follow.  start: Motion at t = 0, the brace
-    locked where it stands, unless its velocity differs.  times, phases: changes of phase as far as
+    locked where it stands, unless its velocity differs; resumes: whether ``s`` is given in its place, the
+    state in which another history ended.  times, phases: changes of phase as far as
     they have room.  traces (m, len(TRACES)): filled at k dt_out for k < m.
     """
-    begin(plan, start, s)
+    if resumes:
+        resume(plan, s)
+    else:
+        begin(plan, start, s)
     begun = int(s[TRANSITIONS])
     for k in range(min(begun, times.size)):
         times[k] = 0.0

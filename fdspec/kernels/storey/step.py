@@ -156,6 +156,21 @@ def begin(plan, start, s):
 
 
 @inner
+def resume(plan, s):
+    """Go on from the state ``s`` in which another history has ended, with peaks and energies anew."""
+    motion = Motion(s[U], s[V], s[D], s[E])
+    for k in (INPUT, VISCOUS, RELEASE, TRAVEL, TRANSITIONS, EVENTS, STATUS):
+        s[k] = 0.0
+    s[ANCHOR] = motion.u - motion.d
+    s[STORED] = stored_energy(plan.storey, motion)
+    peaks = with_instant(plan, int(s[PHASE]), s[OFFSET], motion, Peaks(0.0, 0.0, 0.0, 0.0))
+    s[PEAK_ACCELERATION] = peaks.acceleration
+    s[PEAK_DISPLACEMENT] = peaks.displacement
+    s[PEAK_VELOCITY] = peaks.velocity
+    s[PEAK_SHEAR] = peaks.shear
+
+
+@inner
 def walk(
     plan,
     forms,

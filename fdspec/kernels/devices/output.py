@@ -1,0 +1,89 @@
+"""The motion of a frame with devices at an output instant."""
+
+from __future__ import annotations
+
+from fdspec.compiler.options import inner
+from fdspec.kernels.devices.energy import energy_in_bearing, kinetic_energy, strain_energy, work_of_gravity
+from fdspec.kernels.devices.layout import (
+    BRACE,
+    FRICTION_GROWTH,
+    KIND,
+    KINETIC,
+    ONE_SIDED,
+    PHASE,
+    REACTION,
+    TRAVEL,
+    WORK,
+    A,
+    O,
+    U,
+    V,
+    Z,
+)
+from fdspec.kernels.devices.peaks import storey_shear
+from fdspec.kernels.devices.tally import travel_since, work_since
+from fdspec.kernels.mathematics.polynomial_roots import value
+from fdspec.kernels.types import STICK
+
+FLOOR_TRACES = ("displacement", "velocity", "acceleration", "storey_shear")
+"""Columns of ``floor_traces`` (m, 4, N)."""
+
+LINK_TRACES = ("offset", "sliding_velocity", "friction_force", "force", "phase", "travel", "work")
+"""Columns of ``link_traces`` (m, 7, L)."""
+
+TOTAL_TRACES = (
+    "input_energy",
+    "viscous_energy",
+    "kinetic_energy",
+    "strain_energy",
+    "bearing_energy",
+    "gravity_energy",
+)
+"""Columns of ``energies`` (m, 6)."""
+
+
+@inner
+def state_at(series, n, x, floors, sliders):
+    """Set floors and sliders to the motion at the fraction x of the step."""
+    for i in range(1, floors.shape[1]):
+        floors[U, i] = value(series.floors[U, i], n, x)
+        floors[V, i] = value(series.floors[V, i], n, x)
+    for j in range(sliders.shape[1]):
+        sliders[O, j] = value(series.sliders[O, j], n, x)
+        sliders[Z, j] = value(series.sliders[Z, j], n, x)
+
+
+@inner
+def write_traces(frame, state, then, series, n, h, y, floor_traces, link_traces, energies, row):
+    """Write the motion at the fraction y of a step, before what happens at its end.
+
+    then: room for the state at that instant; the works of ground and dashpots are not written here.
+    """
+    state_at(series, n, y, then.floors, then.sliders)
+    for i in range(1, frame.mass.size):
+        floor_traces[row, 0, i - 1] = then.floors[U, i]
+        floor_traces[row, 1, i - 1] = then.floors[V, i]
+        floor_traces[row, 2, i - 1] = value(series.floors[A, i], n - 1, y)
+        storey_shear(frame, series, n, h, i, series.c)
+        floor_traces[row, 3, i - 1] = value(series.c, n - 1, y)
+    for j in range(frame.places.shape[1]):
+        offset = then.sliders[O, j]
+        phase = state.mode[PHASE, j]
+        force = value(series.sliders[BRACE, j], n - 1, y)
+        friction = force
+        if frame.places[KIND, j] != ONE_SIDED:
+            if phase == STICK:
+                friction = value(series.sliders[REACTION, j], n - 1, y)
+            else:
+                friction = phase * (frame.links[KINETIC, j] + frame.links[FRICTION_GROWTH, j] * abs(offset))
+        link_traces[row, 0, j] = offset
+        link_traces[row, 1, j] = then.sliders[Z, j]
+        link_traces[row, 2, j] = friction
+        link_traces[row, 3, j] = force
+        link_traces[row, 4, j] = phase
+        link_traces[row, 5, j] = state.tally[TRAVEL, j] + travel_since(frame, state, j, offset)
+        link_traces[row, 6, j] = state.tally[WORK, j] + work_since(frame, state, j, offset)
+    energies[row, 2] = kinetic_energy(frame, then)
+    energies[row, 3] = strain_energy(frame, then)
+    energies[row, 4] = energy_in_bearing(frame, then)
+    energies[row, 5] = work_of_gravity(frame, then)
