@@ -109,7 +109,8 @@ def sweep(
         study, scaled=study.scaled and not raw, certify=study.certify and not no_certify
     )
     if intensity is not None:
-        study = dataclasses.replace(study, grid=dataclasses.replace(study.grid, intensity=intensity))
+        grid = dataclasses.replace(study.grid, intensity=intensity)  # type: ignore[arg-type]  checked there
+        study = dataclasses.replace(study, grid=grid)
     if print_study:
         echo(study.to_toml(), nl=False)
         return
