@@ -109,7 +109,7 @@ def sweep(
         study, scaled=study.scaled and not raw, certify=study.certify and not no_certify
     )
     if intensity is not None:
-        grid = dataclasses.replace(study.grid, intensity=intensity)  # type: ignore[arg-type]  checked there
+        grid = dataclasses.replace(study.grid, intensity=intensity)  # type: ignore[arg-type]
         study = dataclasses.replace(study, grid=grid)
     if print_study:
         echo(study.to_toml(), nl=False)

@@ -324,9 +324,9 @@ def _variables(
     for (r, items), (of_storeys, of_all) in zip(tasks, parts, strict=True):
         by_storey[:, r, items] = of_storeys.transpose(1, 0, 2)
         totals[:, r, items] = of_all.T
-    shape = (n_r, n_i, histories // n_i)
-    results = dict(zip(rows, by_storey.reshape(len(rows), *shape, grid.n_storeys), strict=True))
-    results |= dict(zip(TOTALS, totals.reshape(len(TOTALS), *shape), strict=True))
+    levels = (n_r, n_i, histories // n_i)
+    results = dict(zip(rows, by_storey.reshape(len(rows), *levels, grid.n_storeys), strict=True))
+    results |= dict(zip(TOTALS, totals.reshape(len(TOTALS), *levels), strict=True))
     results["peak_base_shear"] = results["peak_storey_shear"][..., 0]
     results["residual_drift"] = np.diff(results["residual_displacement"], prepend=0.0)
     acceleration = results["peak_acceleration"]
