@@ -7,8 +7,7 @@ packages: `fdspec.figures`, `fdspec.measures`, `fdspec.signals` and so on need n
 from typing import TYPE_CHECKING
 
 from fdspec.on_demand import submodules
-
-__version__ = "0.1.0"
+from fdspec.version import __version__ as __version__
 
 if TYPE_CHECKING:
     from fdspec.choice.distribution import optimise as optimise

@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING
 
 import click
 
+from fdspec.cli.device_options import device_options, given
 from fdspec.cli.echo import echo
 from fdspec.cli.limits import levels_of, limits_of, told
 from fdspec.cli.output import force_option, free
-from fdspec.cli.record_options import file_options, named_records
+from fdspec.cli.record_options import RecordsOption, file_options, named_records
 
 if TYPE_CHECKING:
     from fdspec.model.building import Building
@@ -21,6 +22,7 @@ PAGES = (".html", ".htm")
 @click.option(
     "--record",
     "records",
+    cls=RecordsOption,
     multiple=True,
     metavar="NAME|FILE",
     help="A record of the catalogue, or a file; repeat it.  [default: the study's nine]",
@@ -41,6 +43,7 @@ PAGES = (".html", ".htm")
 @click.option("--floor-mass", type=float, default=20e3, show_default=True, metavar="KG")
 @click.option("--brace-mass", type=float, default=50.0, show_default=True, metavar="KG")
 @click.option("--damping-ratio", type=float, default=0.05, show_default=True, metavar="X")
+@device_options
 @click.option("--friction-coefficient", type=float, default=0.5, show_default=True, metavar="X")
 @click.option(
     "--kinetic-friction-coefficient", type=float, metavar="X", help="[default: the friction coefficient]"
@@ -102,9 +105,6 @@ PAGES = (".html", ".htm")
     metavar="X",
     help="Factor on the records at which the limits hold, DE (1) or MCE (1.5); repeat it.  [default: 1]",
 )
-@click.option(
-    "--storey-height", type=float, metavar="M", help="Of the single-storey frame, for drift_ratio, m."
-)
 @click.option("--seed", type=int, default=0, show_default=True, metavar="N", help="Of a free distribution.")
 @click.option("--workers", type=int, metavar="N", help="Threads.  [default: one a core]")
 @click.option("--html", metavar="FILE.html", help="Write the report as one page with pictures too.")
@@ -135,7 +135,6 @@ def choose(
     upper: float,
     limits: tuple[str, ...],
     levels: tuple[str, ...],
-    storey_height: float | None,
     seed: int,
     workers: int | None,
     html: str | None,
@@ -144,6 +143,7 @@ def choose(
     author: str,
     output: str | None,
     force: bool,
+    **devices: float | None,
 ) -> None:
     """Recommend the pretension of a friction damper for one frame or building and a set of records.
 
@@ -169,7 +169,7 @@ def choose(
     click_context = click.get_current_context()
     if building is not None:
         frame_options = ("period", "stiffness_ratio", "floor_mass", "brace_mass", "damping_ratio")
-        for name in (*frame_options, "kinetic_friction_coefficient", "storey_height"):
+        for name in (*frame_options, "kinetic_friction_coefficient", *devices):
             if click_context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
                 option = "--" + name.replace("_", "-")
                 raise click.UsageError(
@@ -193,7 +193,7 @@ def choose(
             floor_mass=floor_mass,
             brace_mass=brace_mass,
             damping_ratio=damping_ratio,
-            storey_height=storey_height,
+            **given(devices),  # type: ignore[arg-type]
         )
     )
     named = named_records(records or STUDY_RECORDS, units, dt, channel)

@@ -2,8 +2,8 @@
 
 import click
 
-from fdspec import __version__
 from fdspec.cli.lazy import LazyGroup
+from fdspec.version import __version__
 
 COMMANDS = {
     "sweep": (

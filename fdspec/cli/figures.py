@@ -13,8 +13,7 @@ from fdspec.cli.output import force_option, free, made_folder, write_picture
 from fdspec.errors import InvalidInput
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from fdspec.figures.page import Figure
     from fdspec.report.study_figures import Picture
 
 KINDS: Final = ("png", "pdf", "svg")
@@ -74,7 +73,7 @@ def figures(
     listed: bool,
     force: bool,
 ) -> None:
-    """Draw the study's figures: 4 and 6 (validation), 8 and 9 (records), 10 to 18 (acceleration).
+    """Draw the study's figures: 4 and 6 (validation), 7 (the damper), 8 and 9 (records), 10 to 18 (spectra).
 
     Each of 10 to 18 shows one record, a panel a stiffness ratio: the surface over pretension and period, and
     beside it a map with the best pretension. Beyond the study, `ensemble` shows all records together, `chart`

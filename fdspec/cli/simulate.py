@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from fdspec.cli.device_options import device_options, given
 from fdspec.cli.echo import echo
 from fdspec.cli.output import PICTURES, force_option, free, save_picture
 from fdspec.cli.record_options import file_options, named_record
@@ -44,6 +45,7 @@ if TYPE_CHECKING:
 @click.option(
     "--brace-damping-ratio", type=float, default=0.0, show_default=True, metavar="X", help="Of the brace."
 )
+@device_options
 @click.option(
     "--free-vibration",
     type=float,
@@ -81,6 +83,7 @@ def simulate(
     output: str,
     figure: str | None,
     force: bool,
+    **devices: float | None,
 ) -> None:
     """Compute the history of one single-storey frame under one record: motion, friction, phases, energies.
 
@@ -112,6 +115,7 @@ def simulate(
         damping_ratio=damping_ratio,
         kinetic_slip_force=kinetic_slip_force,
         brace_damping_ratio=brace_damping_ratio,
+        **given(devices),  # type: ignore[arg-type]
     )
     named = named_record(record, units, dt, channel)
     motion = find_record(named, scaled=not raw)
@@ -142,5 +146,12 @@ def _results(history: xr.Dataset) -> str:
         "energy put in": f"{history['input_energy'].values[-1] / 1e3:.4g} kJ",
         "error of energy": f"{history['energy_error'].item():.1e} of the energy put in",
     }
+    if "ductility" in one:
+        lines |= {
+            "largest slip": f"{one['peak_slip'].item() * 1e3:.4g} mm",
+            "ductility": f"{one['ductility'].item():.4g}",
+            "plastic drift": f"{one['plastic_drift'].item() * 1e3:.4g} mm",
+            "energy of columns": f"{one['column_energy'].item() / 1e3:.4g} kJ",
+        }
     width = max(map(len, lines))
     return "\n".join(f"{name:<{width}}  {value}" for name, value in lines.items())

@@ -16,7 +16,7 @@ from fdspec.cli.echo import echo
 from fdspec.cli.held import holds
 from fdspec.cli.numbers_option import Numbers
 from fdspec.cli.output import force_option, free, is_there
-from fdspec.cli.record_options import file_options, named_records
+from fdspec.cli.record_options import RecordsOption, file_options, named_records
 from fdspec.cli.run_options import STORE_SUFFIX, client_of, kept, logged, run_options, store_of
 from fdspec.cli.table import grouped, seconds, size
 from fdspec.errors import BusyError
@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     "--record",
     "--records",
     "records",
+    cls=RecordsOption,
     multiple=True,
     metavar="NAME|FILE",
     help="A record of the catalogue or a file, in place of the study's; repeat it for several.",
@@ -150,11 +151,11 @@ def _run(
 ) -> None:
     """Compute and write; nobody else writes there meanwhile."""
     from fdspec.model.grid import GRID_FIELDS
-    from fdspec.runs.sweep import measured
+    from fdspec.runs.pilot import wall_seconds
     from fdspec.runs.sweep import sweep as compute
 
     motions = study.motions()
-    expected = partial(measured, motions, study.grid, study.certify)
+    expected = partial(wall_seconds, motions, study.grid, study.certify)
     store = store_of(path, resumable=resumable, expected=expected)
     with (
         logged(log),
@@ -200,10 +201,10 @@ def _finish(cube: xr.Dataset, path: Path, store: Path | None, force: bool, start
 
 def _plan(study: Study, path: Path) -> str:
     """Say what a run would do."""
-    from fdspec.runs.bounds import seconds_of_sweep
-    from fdspec.runs.cost import measured
+    from fdspec.runs.cost import seconds_of_sweep
+    from fdspec.runs.pilot import measured
     from fdspec.runs.sweep import bytes_of, refuse_endless, usual_outputs
-    from fdspec.scheduling.threads import cores
+    from fdspec.scheduling.task import cores
 
     motions = study.motions()
     outputs = study.outputs or usual_outputs(study.grid)

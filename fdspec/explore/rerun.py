@@ -11,7 +11,9 @@ from fdspec.errors import InvalidInput
 from fdspec.explore.motions import Motions
 from fdspec.explore.traces import LOOP_FINER, packed_history
 from fdspec.model.building import Building
-from fdspec.runs.bounds import refuse_long, seconds_of_history
+from fdspec.model.grid import DEVICE_FIELDS
+from fdspec.runs.bounds import refuse_long
+from fdspec.runs.cost import seconds_of_history
 from fdspec.runs.simulate import simulate
 
 if TYPE_CHECKING:
@@ -111,6 +113,7 @@ def _parameters(cube: xr.Dataset) -> tuple[dict[str, Any], dict[str, Any]]:
     try:
         told: dict[str, Any] = json.loads(str(cube.attrs["parameters"]))
         frame = {name: float(told[name]) for name in FRAME}
+        frame |= {name: float(told[name]) for name in DEVICE_FIELDS if told.get(name) is not None}
         return frame, {name: None if told[name] is None else float(told[name]) for name in FRICTION}
     except (KeyError, TypeError, ValueError) as error:
         raise InvalidInput(

@@ -17,7 +17,8 @@ from fdspec.model.motion import GroundMotion
 from fdspec.model.number_check import not_negative_number
 from fdspec.runs.cube import assemble, named
 from fdspec.scheduling.progress import Shown
-from fdspec.scheduling.threads import fan_out, plan
+from fdspec.scheduling.task import plan
+from fdspec.scheduling.threads import fan_out
 from fdspec.variables import CUBE, Registry, Variable, motion_variables, registry_of
 
 if TYPE_CHECKING:
@@ -191,7 +192,7 @@ def _run(
 ) -> FloatArray:
     """Integrate some of the oscillators: peak acceleration and status, (2, items)."""
     from fdspec.engines.many_storeys import peaks_of
-    from fdspec.kernels.frame.history import STOREY_RESULTS, TOTALS
+    from fdspec.kernels.frame.results import STOREY_RESULTS, TOTALS
 
     shape = (building.n_storeys, ratios.size, periods.size)
     row = STOREY_RESULTS.index("peak_acceleration")

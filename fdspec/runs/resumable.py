@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from fdspec.errors import DiskError, InvalidInput, StoreError
 from fdspec.locks import locked
 from fdspec.model.motion import GroundMotion
-from fdspec.scheduling.threads import Task, cores
+from fdspec.scheduling.task import Task, cores
 from fdspec.store import chunks
 from fdspec.store import open as open_cube
 from fdspec.store.blocks import Blocks, cut

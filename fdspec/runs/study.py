@@ -52,7 +52,8 @@ MAX_AXIS: Final = 1_000_000
 class RecordFile:
     """Name a record file and what it does not say of itself; see `fdspec.read_record`.
 
-    `path` is relative to the study file's folder, `units` one of g, m/s2, cm/s2, mm/s2, `dt` in s.
+    `path` is relative to the study file's folder, `units` one of g, m/s2, cm/s2, mm/s2 and others, `dt` and
+    `resample_to` in s, `skip` a number of lines.
     """
 
     path: str
@@ -60,6 +61,9 @@ class RecordFile:
     dt: float | None = None
     channel: str | None = None
     name: str | None = None
+    skip: int | None = None
+    layout: str | None = None
+    resample_to: float | None = None
     scaling: Scaling | None = None
 
 
@@ -352,9 +356,12 @@ def _record(value: object) -> str | RecordFile:
     if "path" not in value:
         raise ValueError("a record given as a table needs path, its file")
     for key, part in value.items():
-        if key == "dt" and not (_finite(part) and part > 0):
-            raise ValueError(f"dt of a record must be positive seconds, got {part!r:.60}")
-        if key != "dt" and not isinstance(part, str):
+        seconds = key in {"dt", "resample_to"}
+        if seconds and not (_finite(part) and part > 0):
+            raise ValueError(f"{key} of a record must be positive seconds, got {part!r:.60}")
+        if key == "skip" and (isinstance(part, bool) or not isinstance(part, int) or part < 0):
+            raise ValueError(f"skip of a record must be a whole number of lines, 0 or more, got {part!r:.60}")
+        if not seconds and key != "skip" and not isinstance(part, str):
             raise ValueError(f"{key} of a record must be a string, got {part!r:.60}")
     return RecordFile(**value, scaling=scaling_of(scaling) if scaling else None)
 

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 import os
-import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, cast
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 import xarray as xr
@@ -17,32 +16,24 @@ from numpy.typing import ArrayLike, NDArray
 
 from fdspec.errors import InvalidInput
 from fdspec.methods import EXACT, Method, chosen_method
-from fdspec.methods.batch import integrate_by_method
-from fdspec.model.building import Building, ModalDamping
 from fdspec.model.grid import Grid
 from fdspec.model.motion import GroundMotion
-from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_sweep
+from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long
+from fdspec.runs.columns import DEMANDS, STRAIN, Columns, demands_of, rows_of, run_columns, warm
+from fdspec.runs.cost import seconds_of_sweep
 from fdspec.runs.cube import assemble, chosen, named
+from fdspec.runs.pilot import probed
 from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.progress import Shown
-from fdspec.scheduling.threads import Task, cores, fan_out, plan
-from fdspec.variables import CUBE, INTENSITY_CUBE, STUDY_DIMS, Registry, demand_variables
+from fdspec.scheduling.task import Task, plan
+from fdspec.scheduling.threads import fan_out
+from fdspec.variables import CUBE, INTENSITY_CUBE, STUDY_DIMS, Registry
 
 if TYPE_CHECKING:
-    from distributed import Client
+    from fdspec.scheduling.task import Client
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
-Columns = tuple[FloatArray, FloatArray, FloatArray]
-
-SECONDS_PER_SAMPLE: Final = 8e-9
-"""Core time of one history for each sample of its record, roughly; for plans, not for results."""
-
-WINDOW: Final = 512
-"""Samples of the record for which histories are computed to see what they cost."""
-
-PROBE: Final = 0.2
-"""s of core time after which enough is known of the cost."""
 
 BARE: Final = {
     "elastic_acceleration": "peak_acceleration",
@@ -59,12 +50,6 @@ BRACED: Final = {
     "braced_peak_base_shear": "peak_base_shear",
 }
 """Output over (record, stiffness_ratio, period) -> what it is where the damper never slips."""
-
-STRAIN: Final = ("strain_energy_area", "peak_strain_energy")
-"""Results of a pass of their own over every history."""
-
-DEMANDS: Final = tuple(v.name for v in demand_variables(()))
-"""Outputs of frames with devices alone."""
 
 RESPONSES: Final = tuple(v.name for v in CUBE.values() if v.dims == STUDY_DIMS and v.name not in DEMANDS)
 _KNOWN: Final = (*RESPONSES, *BARE, *BRACED)
@@ -212,12 +197,12 @@ def sweep(
     seconds = seconds_of_sweep(grid, motions, certify)
     refuse_endless(motions, grid, wanted, sum(seconds), store)
     warn_of_units(motions, period=grid.period, slip_force=grid.slip_force, floor_mass=grid.floor_mass)
-    run = partial(_run_columns, grid, certify, bool(strain), other)
+    run = partial(run_columns, grid, certify, bool(strain), other)
     fan = partial(
         fan_out,
         motions=motions,
         each=n_f * grid.intensities.size,
-        warm=_warm,
+        warm=warm,
         workers=workers,
         scheduler=scheduler,
         client=client,
@@ -256,54 +241,12 @@ def sweep(
             fan,
             seconds=sum(seconds)
             if columns_per_task
-            else sum(_measured(motions, grid, certify, bool(strain), other)),
+            else sum(probed(motions, grid, certify, bool(strain), other)),
             columns_per_task=columns_per_task,
             restart=restart,
         )
     tasks = plan(n_sr * n_t, seconds, columns_per_task, "columns_per_task")
     return cube_of(_variables(grid, len(motions), tasks, fan(run, tasks=tasks), wanted))
-
-
-def measured(motions: Sequence[GroundMotion], grid: Grid, certify: bool = True) -> float:
-    """Wall seconds that a sweep takes on this machine's cores, from some of its histories, computed here.
-
-    They are taken around the strongest shaking, so that it is rather too much.
-    """
-    return sum(_measured(motions, grid, certify, False, None)) / cores()
-
-
-def _measured(
-    motions: Sequence[GroundMotion], grid: Grid, certify: bool, strain: bool, other: Method | None
-) -> list[float]:
-    """Core seconds of the histories of each motion."""
-    _warm()
-    longest = max(motions, key=lambda motion: motion.n)
-    peak = int(np.argmax(np.abs(longest.acceleration)))
-    first = max(0, min(peak - WINDOW // 4, longest.n - WINDOW))
-    window = GroundMotion(longest.acceleration[first : first + WINDOW], longest.dt, name="window")
-    nothing = GroundMotion(np.zeros(2), longest.dt, name="nothing")
-    ratio = grid.stiffness_ratio[_shares(grid.stiffness_ratio.size, 2)]
-    pretension = grid.pretension[_shares(grid.pretension.size, 8)]
-    period = grid.period[_shares(grid.period.size, 6)]
-    part = replace(grid, stiffness_ratio=ratio, pretension=pretension, period=period)
-    spent, histories = 0.0, 0
-    for k in range(period.size):  # from the shortest, which costs most
-        columns = np.arange(k, ratio.size * period.size, period.size)
-        for motion, sign in ((nothing, -1), (window, 1)):  # what a call costs by itself is no history's
-            started = time.thread_time()
-            _run_columns(part, certify, strain, other, columns, motion)
-            spent += sign * (time.thread_time() - started)
-        histories += columns.size * pretension.size * grid.intensities.size
-        if spent > PROBE:
-            break
-    each = max(spent / (histories * window.n), SECONDS_PER_SAMPLE / 4.0)
-    return [each * motion.n * grid.size for motion in motions]
-
-
-def _shares(size: int, count: int) -> IntArray:
-    """Positions in the middle of equal shares, at most so many."""
-    count = min(size, count)
-    return ((np.arange(count) + 0.5) * size / count).astype(np.int64)
 
 
 def bytes_of(motions: Sequence[GroundMotion], grid: Grid, outputs: Iterable[str]) -> dict[str, int]:
@@ -340,149 +283,9 @@ def refuse_endless(
     refuse_long(seconds, SWEEP_HOURS, what)
 
 
-def timed(grid: Grid, motion: GroundMotion, certify: bool = True) -> tuple[float, int]:
-    """Compute all columns of a small grid in this thread; return its core seconds and changes of phase."""
-    from fdspec.kernels.storey.history import RESULTS
-
-    _warm()
-    columns = np.arange(grid.stiffness_ratio.size * grid.period.size)
-    started = time.thread_time()
-    results, _, _ = _run_columns(grid, certify, False, None, columns, motion)
-    return time.thread_time() - started, int(results[..., RESULTS.index("transitions")].sum())
-
-
 def usual_outputs(grid: Grid) -> tuple[str, ...]:
     """Return what a sweep computes unless it is told otherwise."""
-    return (*OUTPUTS, *_demands(grid))
-
-
-def _demands(grid: Grid) -> tuple[str, ...]:
-    """Return what only a cube of frames with devices has."""
-    if not grid.devices:
-        return ()
-    return tuple(name for name in DEMANDS if name != "peak_drift_ratio" or grid.storey_height is not None)
-
-
-def _warm() -> None:
-    import fdspec.engines.batch  # noqa: F401
-
-
-def _frames(grid: Grid, columns: IntArray) -> FloatArray:
-    """Rows of floor mass, damping, stiffness, brace mass, damping, stiffness for these pairs."""
-    ratio, period = np.unravel_index(columns, (grid.stiffness_ratio.size, grid.period.size))
-    stiffness = grid.floor_mass * (2.0 * np.pi / grid.period[period]) ** 2
-    brace = grid.stiffness_ratio[ratio] * stiffness
-    rows = np.empty((columns.size, 6))
-    rows[:, 0] = grid.floor_mass
-    rows[:, 1] = 2.0 * grid.damping_ratio * np.sqrt(stiffness * grid.floor_mass)
-    rows[:, 2] = stiffness
-    rows[:, 3] = grid.brace_mass
-    rows[:, 4] = 2.0 * grid.brace_damping_ratio * np.sqrt(brace * grid.brace_mass)
-    rows[:, 5] = brace
-    return rows
-
-
-def _run_columns(
-    grid: Grid,
-    certify: bool,
-    strain: bool,
-    other: Method | None,
-    columns: IntArray,
-    motion: GroundMotion,
-) -> Columns:
-    """Integrate some (stiffness ratio, period) pairs: all pretensions, never slipping, without brace.
-
-    Each at every intensity, (m, n_i, n_f, results), (m, n_i, results), (bare, n_i, results), in the order of
-    RESULTS; where wanted, those of STRAIN follow, save of braced frames.
-    """
-    levels, slip_force, kinetic = grid.intensities, grid.slip_force, grid.kinetic_slip_force
-    run = partial(_run_forces, grid, certify, strain, other, columns)
-    if scales(grid, other):
-        # R(s a, F) = s R(a, F / s): further slip forces of the same frames under the same motion.
-        each = levels[:, np.newaxis]
-        found, braced, bare = run((slip_force / each).ravel(), (kinetic / each).ravel(), motion)
-        found = found.reshape(columns.size, levels.size, slip_force.size, -1)
-        parts = (found, braced[:, np.newaxis], bare[:, np.newaxis])
-        return cast("Columns", tuple(part * _growth(levels, part) for part in parts))
-    runs = [run(slip_force, kinetic, motion if s == 1.0 else motion.times(s)) for s in levels.tolist()]
-    return cast("Columns", tuple(np.stack(part, axis=1) for part in zip(*runs, strict=True)))
-
-
-def scales(grid: Grid, other: Method | None) -> bool:
-    """Whether a sweep's frames have no strength or length but their slip forces, and its method none either.
-
-    Columns yield at a shear of their own, slots end at a length, frames collapse at a drift; other methods
-    have tolerances in absolute terms.
-    """
-    return other is None and not grid.devices
-
-
-def _growth(levels: FloatArray, part: FloatArray) -> FloatArray:
-    """Return by what each result of `part` (.., n_i, .., results) grows from intensity 1 to each level."""
-    from fdspec.kernels.storey.history import RESULTS
-
-    degrees = np.array([CUBE[name].degree for name in (*RESULTS, *STRAIN)[: part.shape[-1]]], dtype=float)
-    growth: FloatArray = levels[:, np.newaxis] ** degrees
-    return growth[:, np.newaxis] if part.ndim == 4 else growth
-
-
-def _run_forces(
-    grid: Grid,
-    certify: bool,
-    strain: bool,
-    other: Method | None,
-    columns: IntArray,
-    slip_force: FloatArray,
-    kinetic: FloatArray,
-    motion: GroundMotion,
-) -> Columns:
-    """Integrate the same under these slip forces, whatever the intensity."""
-    from fdspec.engines.batch import integrate_columns
-
-    frames = _frames(grid, columns)
-    exact = slice(None) if other is None and not grid.devices else slice(0)
-    braced, results = integrate_columns(frames, slip_force[exact], kinetic[exact], motion, certify=certify)
-    if grid.devices:
-        results = _run_devices(grid, frames, slip_force, kinetic, motion)
-    if other is not None:
-        results = integrate_by_method(other, frames, slip_force, kinetic, motion)
-    bare = frames[columns < grid.period.size].copy()  # the first stiffness ratio's pairs stand for all
-    bare[:, 3:] = 0.0
-    free, _ = integrate_columns(bare, np.empty(0), np.empty(0), motion, certify=False)
-    if strain:
-        from fdspec.engines.strain import strain_of_columns
-
-        never = np.array([np.inf]), np.array([0.0])
-        added = strain_of_columns(frames, slip_force, kinetic, motion)
-        results = np.concatenate([results, added], axis=-1)
-        free = np.concatenate([free, strain_of_columns(bare, *never, motion)[:, 0]], axis=-1)
-    return results, braced, free
-
-
-def _run_devices(
-    grid: Grid, frames: FloatArray, slip_force: FloatArray, kinetic: FloatArray, motion: GroundMotion
-) -> FloatArray:
-    """Integrate frames (m, 6) with devices, all pretensions: (m, n_f, results) in the order of `_rows`."""
-    from fdspec.engines.devices import peaks_of
-
-    rows = _rows(grid)
-    results = np.empty((frames.shape[0], grid.pretension.size, len(rows)))
-    for i, (m_f, _, k_f, m_d, c_d, k_d) in enumerate(frames):
-        for j, forces in enumerate(zip(slip_force, kinetic, strict=True)):
-            damping = ModalDamping(grid.damping_ratio)
-            building = Building(m_f, k_f, m_d, k_d, *forces, damping, c_d, **grid.devices)
-            storey, whole = peaks_of(building, motion)
-            found = {name: float(values[0]) for name, values in storey.items()} | whole
-            found["peak_base_shear"] = found["peak_storey_shear"]
-            results[i, j] = [found[name] for name in rows]
-    return results
-
-
-def _rows(grid: Grid) -> tuple[str, ...]:
-    """Return the results of a history, in their order."""
-    from fdspec.kernels.storey.history import RESULTS
-
-    return (*RESULTS, *_demands(grid)) if grid.devices else (*RESULTS, *STRAIN)
+    return (*OUTPUTS, *demands_of(grid))
 
 
 def _block(
@@ -507,7 +310,7 @@ def _variables(
     wanted: Sequence[str],
 ) -> dict[str, NDArray[Any]]:
     """Put what the tasks returned where it stands in the cube."""
-    rows = _rows(grid)
+    rows = rows_of(grid)
     n_sr, n_f, n_t = grid.shape
     n_i = grid.intensities.size
     responses: dict[str, NDArray[Any]] = {

@@ -15,15 +15,17 @@ from numpy.typing import ArrayLike, NDArray
 from fdspec.model.building import Building, Frame
 from fdspec.model.building_grid import BuildingGrid, Buildings
 from fdspec.model.motion import GroundMotion
-from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_history
+from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long
+from fdspec.runs.cost import seconds_of_history
 from fdspec.runs.cube import assemble, chosen, named
 from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.progress import Shown
-from fdspec.scheduling.threads import Task, cores, fan_out, plan
+from fdspec.scheduling.task import Task, cores, plan
+from fdspec.scheduling.threads import fan_out
 from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS, INTENSITY_BUILDING_CUBE, Registry, demand_variables
 
 if TYPE_CHECKING:
-    from distributed import Client
+    from fdspec.scheduling.task import Client
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -158,7 +160,7 @@ def sweep_buildings(
         motions,
         tasks,
         each=1,
-        warm=partial(_warm, _with_devices(grid)),
+        warm=partial(_warm, grid),
         workers=workers,
         scheduler=scheduler,
         client=client,
@@ -237,10 +239,12 @@ def _with_devices(grid: BuildingGrid) -> bool:
     return any(building.has_devices for building in grid.buildings)
 
 
-def _warm(devices: bool) -> None:
-    import fdspec.engines.many_storeys
+def _warm(grid: BuildingGrid) -> None:
+    from fdspec.engines.frames import runs_beside_others
 
-    if devices:
+    if not all(runs_beside_others(building.frame) for building in grid.buildings):
+        import fdspec.engines.many_storeys
+    if _with_devices(grid):
         import fdspec.engines.devices  # noqa: F401
 
 
@@ -252,13 +256,40 @@ def _run(
     each: histories at one intensity; those of the first come first.
     """
     levels, of_level = np.divmod(histories, each)
-    factors = {int(level): float(grid.intensities[level]) for level in np.unique(levels)}
-    shaking = {level: motion if s == 1.0 else motion.times(s) for level, s in factors.items()}
-    results = [
-        _run_one(grid, certify, history, shaking[level])
-        for level, history in zip(levels.tolist(), of_level.tolist(), strict=True)
-    ]
-    return np.stack([by_storey for by_storey, _ in results]), np.stack([totals for _, totals in results])
+    by_storey = np.empty((histories.size, len(_rows(grid)), grid.n_storeys))
+    totals = np.empty((histories.size, len(_totals())))
+    for level in np.unique(levels).tolist():
+        at, s = levels == level, float(grid.intensities[level])
+        shaken = motion if s == 1.0 else motion.times(s)
+        by_storey[at], totals[at] = _run_level(grid, certify, of_level[at], shaken)
+    return by_storey, totals
+
+
+def _totals() -> tuple[str, ...]:
+    from fdspec.kernels.frame.results import TOTALS
+
+    return TOTALS
+
+
+def _run_level(
+    grid: BuildingGrid, certify: bool, histories: IntArray, motion: GroundMotion
+) -> tuple[FloatArray, FloatArray]:
+    """Integrate the same, all at the intensity of this motion."""
+    if _with_devices(grid):
+        results = [_run_one(grid, certify, int(history), motion) for history in histories]
+        return np.stack([rows for rows, _ in results]), np.stack([whole for _, whole in results])
+    from fdspec.engines.frames import peaks_of_frames
+    from fdspec.kernels.frame.results import STOREY_RESULTS, TOTALS
+
+    frames = [_frame(grid, int(history)) for history in histories]
+    by_storey = np.empty((len(frames), len(STOREY_RESULTS), grid.n_storeys))
+    totals = np.empty((len(frames), len(TOTALS)))
+    cells = histories < _ends(grid)[0]
+    for of, certified in ((cells, certify), (~cells, False)):
+        if of.any():
+            chosen_frames = [frame for frame, is_one in zip(frames, of, strict=True) if is_one]
+            by_storey[of], totals[of] = peaks_of_frames(chosen_frames, motion, certify=certified)
+    return by_storey, totals
 
 
 def _run_one(
@@ -269,16 +300,13 @@ def _run_one(
     The limits that ride along are those of the elastic frame. Beside a building with devices, one without
     is integrated by both engines: its peaks are those of the engine of frames, to the bit.
     """
-    from fdspec.engines.many_storeys import peaks_of
-    from fdspec.kernels.frame.history import STOREY_RESULTS, TOTALS
+    from fdspec.engines.frames import peaks_of_frames
+    from fdspec.kernels.frame.results import STOREY_RESULTS, TOTALS
 
-    cell = history < _ends(grid)[0]
-    if not _with_devices(grid):
-        return peaks_of(_frame(grid, history), motion, certify=certify and cell)
-    if not cell:
-        by_storey, totals = peaks_of(_frame(grid, history), motion, certify=False)
+    if history >= _ends(grid)[0]:
+        by_storey, of_all = peaks_of_frames([_frame(grid, history)], motion, certify=False)
         missing = np.zeros((len(_rows(grid)) - len(STOREY_RESULTS), grid.n_storeys))
-        return np.concatenate([by_storey, missing]), totals
+        return np.concatenate([by_storey[0], missing]), of_all[0]
     from fdspec.engines.devices import peaks_of as peaks_with_devices
 
     building = _building(grid, history)
@@ -286,13 +314,14 @@ def _run_one(
     table = np.stack([storeys[name] for name in _rows(grid)])
     totals = np.array([whole[name] for name in TOTALS])
     if not building.has_devices:
-        table[: len(STOREY_RESULTS)], totals = peaks_of(_frame(grid, history), motion, certify=certify)
+        by_storey, of_all = peaks_of_frames([_frame(grid, history)], motion, certify=certify)
+        table[: len(STOREY_RESULTS)], totals = by_storey[0], of_all[0]
     return table, totals
 
 
 def _rows(grid: BuildingGrid) -> tuple[str, ...]:
     """Return the names of what each storey has of its own."""
-    from fdspec.kernels.frame.history import STOREY_RESULTS
+    from fdspec.kernels.frame.results import STOREY_RESULTS
 
     return (*STOREY_RESULTS, *_demands(grid))
 
@@ -313,7 +342,7 @@ def _variables(
     wanted: Sequence[str],
 ) -> dict[str, NDArray[np.generic]]:
     """Put what the tasks returned where it stands in the cube."""
-    from fdspec.kernels.frame.history import TOTALS
+    from fdspec.kernels.frame.results import TOTALS
 
     rows = _rows(grid)
     cells, braced, bare = _ends(grid)
