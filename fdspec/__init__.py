@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from fdspec.errors import RecordError as RecordError
     from fdspec.errors import StoreError as StoreError
     from fdspec.errors import StudyError as StudyError
+    from fdspec.measures.fragility import fragility as fragility
+    from fdspec.measures.risk import risk as risk
     from fdspec.measures.summary import summary as summary
     from fdspec.model.building import Building as Building
     from fdspec.model.damping import DampingMatrix as DampingMatrix
@@ -31,6 +33,8 @@ if TYPE_CHECKING:
     from fdspec.model.motion import GroundMotion as GroundMotion
     from fdspec.records import load_record as load_record
     from fdspec.records import read_record as read_record
+    from fdspec.runs.floor_spectra import floor_spectra as floor_spectra
+    from fdspec.runs.inelastic_spectra import inelastic_spectra as inelastic_spectra
     from fdspec.runs.simulate import simulate as simulate
     from fdspec.runs.study import Study as Study
     from fdspec.runs.sweep import sweep as sweep
@@ -58,6 +62,10 @@ _NAMES = {
     "model.link": ("Link", "TensionBrace"),
     "model.motion": ("GroundMotion",),
     "records": ("load_record", "read_record"),
+    "measures.fragility": ("fragility",),
+    "measures.risk": ("risk",),
+    "runs.floor_spectra": ("floor_spectra",),
+    "runs.inelastic_spectra": ("inelastic_spectra",),
     "runs.simulate": ("simulate",),
     "runs.study": ("Study",),
     "runs.sweep": ("sweep",),

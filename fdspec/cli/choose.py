@@ -9,6 +9,7 @@ import click
 from fdspec.cli.as_json import echo_json, json_option, of_dataset
 from fdspec.cli.device_options import device_options, given
 from fdspec.cli.echo import echo
+from fdspec.cli.limits import levels_of, limits_of, told
 from fdspec.cli.output import force_option, free
 from fdspec.cli.record_options import RecordsOption, file_options, named_records
 
@@ -89,6 +90,22 @@ PAGES = (".html", ".htm")
 @click.option(
     "--upper", type=float, default=1.2, show_default=True, metavar="X", help="The same of the largest."
 )
+@click.option(
+    "--limit",
+    "limits",
+    multiple=True,
+    metavar="NAME=X",
+    help="Find the least slip force that meets this instead: acceleration=0.5g, drift=20mm, "
+    "drift_ratio=0.01, base_shear=300kN, residual_drift=2mm, slip_travel=1; repeat it. Exit code 1 where "
+    "none meets all.",
+)
+@click.option(
+    "--level",
+    "levels",
+    multiple=True,
+    metavar="X",
+    help="Factor on the records at which the limits hold, DE (1) or MCE (1.5); repeat it.  [default: 1]",
+)
 @click.option("--seed", type=int, default=0, show_default=True, metavar="N", help="Of a free distribution.")
 @click.option("--workers", type=int, metavar="N", help="Threads.  [default: one a core]")
 @click.option("--html", metavar="FILE.html", help="Write the report as one page with pictures too.")
@@ -118,6 +135,8 @@ def choose(
     distribution: str,
     lower: float,
     upper: float,
+    limits: tuple[str, ...],
+    levels: tuple[str, ...],
     seed: int,
     workers: int | None,
     html: str | None,
@@ -143,6 +162,13 @@ def choose(
     if html is None and (title or project or author):
         raise click.UsageError("--title, --project and --author are of the page; give --html.")
     cube_path = None if output is None else free(output, force=force)
+    if limits and (html or output or distribution == "free"):
+        raise click.UsageError(
+            "--limit prints its answer; it goes without --html, -o and --distribution free."
+        )
+    if levels and not limits:
+        raise click.UsageError("--level says where limits hold; give --limit.")
+    wanted, factors = limits_of(limits), levels_of(levels)
     click_context = click.get_current_context()
     if building is not None:
         frame_options = ("period", "stiffness_ratio", "floor_mass", "brace_mass", "damping_ratio")
@@ -175,6 +201,24 @@ def choose(
     )
     named = named_records(records or STUDY_RECORDS, units, dt, channel)
     motions = tuple(find_record(name, scaled=not raw) for name in named)
+    if wanted:
+        from fdspec.choice.targets import meet
+
+        target = meet(
+            chosen,
+            motions,
+            wanted,
+            levels=factors,
+            statistic=statistic,
+            distribution=distribution,
+            lower=lower,
+            upper=upper,
+            workers=workers,
+        )
+        echo(told(target, friction_coefficient * normal_force_factor))
+        if not target.met:
+            click_context.exit(1)
+        return
     choice = compute(
         chosen,
         motions,

@@ -32,7 +32,10 @@ SHORT = 0.6
 def summary(cube: xr.Dataset, path: Path, elapsed: float) -> str:
     """Return a table of the records and where the cube is."""
     dims = [str(dim) for dim in cube["status"].dims]
-    axes = " x ".join(counted(cube.sizes[dim], dim.replace("_", " ")) for dim in dims)
+    axes = " x ".join(
+        counted(cube.sizes[dim], dim.replace("_", " "), *(["intensities"] if dim == "intensity" else []))
+        for dim in dims
+    )
     histories = counted(cube["status"].size, "history", "histories")
     storeys = f" of {counted(cube.sizes['storey'], 'storey')}" if "storey" in cube.dims else ""
     written = f"{path} ({size(_bytes(path))})"
@@ -67,6 +70,8 @@ def _profile_table(cube: xr.Dataset) -> list[str]:
     shown = [name for name in STOREY_COLUMNS if name in cube]
     for name in cube["building"].values:
         one = nearest_design(cube.sel(building=name))
+        if "intensity" in one.dims:
+            one = one.sel(intensity=1.0, method="nearest")
         told = summary(one[[*shown, "status"]].load(), percentiles=())
         pairs = [(column, statistic) for column in shown for statistic in ("median", "worst")]
         head = ["storey", *(f"{STOREY_COLUMNS[column].head} {statistic}" for column, statistic in pairs)]
@@ -86,9 +91,13 @@ def _profile_table(cube: xr.Dataset) -> list[str]:
 def _records_table(cube: xr.Dataset) -> str:
     """Table of the records, read one by one: the cube may be larger than memory."""
     wanted = cube[[name for name in ("peak_acceleration", "elastic_acceleration", "status") if name in cube]]
+    explained = []
+    if "intensity" in cube.dims:
+        wanted = wanted.sel(intensity=1.0, method="nearest")
+        explained.append(f"At intensity {wanted['intensity'].item():g}, as are the bests.")
     tables = [_columns(wanted.isel(record=[k]).load()) for k in range(cube.sizes["record"])]
     rows = [[cells[0] for _, cells in columns] for columns in tables]
-    explained = ["min, max: smallest and largest peak absolute acceleration of the floor."]
+    explained.append("min, max: smallest and largest peak absolute acceleration of the floor.")
     if "elastic_acceleration" in cube:
         explained.append(
             "Best damper for periods in a band: pretension (kN), stiffness ratio (SR), and peak acceleration "

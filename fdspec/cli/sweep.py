@@ -16,6 +16,7 @@ import click
 from fdspec.cli.as_json import echo_json, json_option
 from fdspec.cli.echo import echo
 from fdspec.cli.held import holds
+from fdspec.cli.numbers_option import Numbers
 from fdspec.cli.output import force_option, free, is_there
 from fdspec.cli.record_options import RecordsOption, file_options, named_records
 from fdspec.cli.run_options import STORE_SUFFIX, client_of, kept, logged, run_options, store_of
@@ -49,6 +50,13 @@ if TYPE_CHECKING:
 )
 @file_options
 @click.option(
+    "--intensity",
+    type=Numbers(),
+    metavar="X",
+    help="Factors on all records, a further axis: numbers with commas, LOW:HIGH:COUNT on a logarithmic "
+    "scale, or both.",
+)
+@click.option(
     "--raw", is_flag=True, help="Leave the catalogue's records as recorded, not scaled to the study's PGA."
 )
 @click.option("--no-certify", is_flag=True, help="Leave out the energy balance of each history; faster.")
@@ -70,6 +78,7 @@ def sweep(
     units: str | None,
     dt: float | None,
     channel: str | None,
+    intensity: list[float] | None,
     raw: bool,
     no_certify: bool,
     dry_run: bool,
@@ -95,6 +104,7 @@ def sweep(
         fdspec sweep --print-study > mine.toml
     """
     from fdspec.runs.building_study import read_study
+    from fdspec.runs.studies import with_intensity
     from fdspec.runs.study import Study
     from fdspec.store import check_writable
 
@@ -108,6 +118,8 @@ def sweep(
     study = dataclasses.replace(
         study, scaled=study.scaled and not raw, certify=study.certify and not no_certify
     )
+    if intensity is not None:
+        study = with_intensity(study, intensity)
     if print_study:
         echo(study.to_toml(), nl=False)
         return

@@ -121,7 +121,7 @@ class BuildingStudy:
         buildings, sources, wrong = _buildings(table.get(BUILDINGS), folder)
         mistakes += wrong
         if not mistakes:
-            scales = values.pop("stiffness_scale"), values.pop("slip_scale")
+            scales = values.pop("stiffness_scale"), values.pop("slip_scale"), values.pop("intensity")
             del values[BUILDINGS]
             try:
                 grid = BuildingGrid(buildings, *scales)
@@ -164,12 +164,18 @@ scaled = {bool_text(self.scaled)}
 stiffness_scale = {axis_text(self.grid.stiffness_scale)}
 # Factors on the slip forces of all dampers; 0 slides freely, inf never.
 slip_scale = {axis_text(self.grid.slip_scale)}
+# Factors on all records, a further axis of the cube; left out, there is none.
+{_intensity_text(self.grid.intensity)}
 
 # Variables of the cube; left out, these.
 {"# " if self.outputs is None else ""}outputs = {strings_text(outputs)}
 # Check the energy balance of every history.
 certify = {bool_text(self.certify)}
 """
+
+
+def _intensity_text(intensity: FloatArray | None) -> str:
+    return "# intensity = [0.5, 1.0, 2.0]" if intensity is None else f"intensity = {axis_text(intensity)}"
 
 
 def read_study(path: str | Path) -> Study | BuildingStudy:
@@ -263,6 +269,7 @@ class _File(BaseModel):
     scaled: StrictBool = True
     stiffness_scale: Annotated[Any, PlainValidator(partial(_scale, False))] = np.ones(1)
     slip_scale: Annotated[Any, PlainValidator(partial(_scale, True))] = np.ones(1)
+    intensity: Annotated[Any, PlainValidator(partial(_scale, False))] | None = None
     outputs: (
         Annotated[
             tuple[

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from typing import Final
+from functools import partial
+from typing import Final, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,7 @@ from fdspec.methods.batch import integrate_by_method
 from fdspec.model.building import Building, ModalDamping
 from fdspec.model.grid import Grid
 from fdspec.model.motion import GroundMotion
-from fdspec.variables import demand_variables
+from fdspec.variables import CUBE, demand_variables
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -39,7 +40,7 @@ def timed(grid: Grid, motion: GroundMotion, certify: bool = True) -> tuple[float
     columns = np.arange(grid.stiffness_ratio.size * grid.period.size)
     started = time.thread_time()
     results, _, _ = run_columns(grid, certify, False, None, columns, motion)
-    return time.thread_time() - started, int(results[:, :, RESULTS.index("transitions")].sum())
+    return time.thread_time() - started, int(results[..., RESULTS.index("transitions")].sum())
 
 
 def demands_of(grid: Grid) -> tuple[str, ...]:
@@ -74,16 +75,58 @@ def run_columns(
 ) -> Columns:
     """Integrate some (stiffness ratio, period) pairs: all pretensions, never slipping, without brace.
 
-    Each in the order of RESULTS; where wanted, those of STRAIN follow, save of braced frames.
+    Each at every intensity, (m, n_i, n_f, results), (m, n_i, results), (bare, n_i, results), in the order of
+    RESULTS; where wanted, those of STRAIN follow, save of braced frames.
     """
+    levels, slip_force, kinetic = grid.intensities, grid.slip_force, grid.kinetic_slip_force
+    run = partial(_run_forces, grid, certify, strain, other, columns)
+    if scales(grid, other):
+        # R(s a, F) = s R(a, F / s): further slip forces of the same frames under the same motion.
+        each = levels[:, np.newaxis]
+        found, braced, bare = run((slip_force / each).ravel(), (kinetic / each).ravel(), motion)
+        found = found.reshape(columns.size, levels.size, slip_force.size, -1)
+        parts = (found, braced[:, np.newaxis], bare[:, np.newaxis])
+        return cast("Columns", tuple(part * _growth(levels, part) for part in parts))
+    runs = [run(slip_force, kinetic, motion if s == 1.0 else motion.times(s)) for s in levels.tolist()]
+    return cast("Columns", tuple(np.stack(part, axis=1) for part in zip(*runs, strict=True)))
+
+
+def scales(grid: Grid, other: Method | None) -> bool:
+    """Whether a sweep's frames have no strength or length but their slip forces, and its method none either.
+
+    Columns yield at a shear of their own, slots end at a length, frames collapse at a drift; other methods
+    have tolerances in absolute terms.
+    """
+    return other is None and not grid.devices
+
+
+def _growth(levels: FloatArray, part: FloatArray) -> FloatArray:
+    """Return by what each result of `part` (.., n_i, .., results) grows from intensity 1 to each level."""
+    from fdspec.kernels.storey.history import RESULTS
+
+    degrees = np.array([CUBE[name].degree for name in (*RESULTS, *STRAIN)[: part.shape[-1]]], dtype=float)
+    growth: FloatArray = levels[:, np.newaxis] ** degrees
+    return growth[:, np.newaxis] if part.ndim == 4 else growth
+
+
+def _run_forces(
+    grid: Grid,
+    certify: bool,
+    strain: bool,
+    other: Method | None,
+    columns: IntArray,
+    slip_force: FloatArray,
+    kinetic: FloatArray,
+    motion: GroundMotion,
+) -> Columns:
+    """Integrate the same under these slip forces, whatever the intensity."""
     from fdspec.engines.batch import integrate_columns
 
     frames = frames_of(grid, columns)
     exact = slice(None) if other is None and not grid.devices else slice(0)
-    slip_force, kinetic = grid.slip_force, grid.kinetic_slip_force
     braced, results = integrate_columns(frames, slip_force[exact], kinetic[exact], motion, certify=certify)
     if grid.devices:
-        results = _run_devices(grid, frames, motion)
+        results = _run_devices(grid, frames, slip_force, kinetic, motion)
     if other is not None:
         results = integrate_by_method(other, frames, slip_force, kinetic, motion)
     bare = frames[columns < grid.period.size].copy()  # the first stiffness ratio's pairs stand for all
@@ -93,20 +136,22 @@ def run_columns(
         from fdspec.engines.strain import strain_of_columns
 
         never = np.array([np.inf]), np.array([0.0])
-        added = strain_of_columns(frames, grid.slip_force, grid.kinetic_slip_force, motion)
+        added = strain_of_columns(frames, slip_force, kinetic, motion)
         results = np.concatenate([results, added], axis=-1)
         free = np.concatenate([free, strain_of_columns(bare, *never, motion)[:, 0]], axis=-1)
     return results, braced, free
 
 
-def _run_devices(grid: Grid, frames: FloatArray, motion: GroundMotion) -> FloatArray:
+def _run_devices(
+    grid: Grid, frames: FloatArray, slip_force: FloatArray, kinetic: FloatArray, motion: GroundMotion
+) -> FloatArray:
     """Integrate frames (m, 6) with devices, all pretensions: (m, n_f, results) in the order of `rows_of`."""
     from fdspec.engines.devices import peaks_of
 
     rows = rows_of(grid)
     results = np.empty((frames.shape[0], grid.pretension.size, len(rows)))
     for i, (m_f, _, k_f, m_d, c_d, k_d) in enumerate(frames):
-        for j, forces in enumerate(zip(grid.slip_force, grid.kinetic_slip_force, strict=True)):
+        for j, forces in enumerate(zip(slip_force, kinetic, strict=True)):
             damping = ModalDamping(grid.damping_ratio)
             building = Building(m_f, k_f, m_d, k_d, *forces, damping, c_d, **grid.devices)
             storey, whole = peaks_of(building, motion)

@@ -88,7 +88,7 @@ class Cost:
 
 def work_of(grid: Grid, motions: Sequence[GroundMotion]) -> tuple[float, float]:
     """Return samples and steps of all histories of a sweep."""
-    n_f = grid.pretension.size
+    n_f = grid.pretension.size * grid.intensities.size
     samples = float(sum(motion.n for motion in motions)) * grid.size
     steps = sum(n_f * motion.n * float(steps_per_sample(grid, motion.dt).sum()) for motion in motions)
     return samples, steps

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import fdspec.runs.sweep as of_frames
@@ -84,6 +85,13 @@ def rough_seconds(study: AnyStudy, motions: Motions) -> float:
     return of_buildings.rough_seconds(motions, study.grid)
 
 
+def with_intensity(study: AnyStudy, intensity: Sequence[float]) -> AnyStudy:
+    """Return the same study over these factors on its records."""
+    if isinstance(study, Study):
+        return replace(study, grid=replace(study.grid, intensity=intensity))  # type: ignore[arg-type]
+    return replace(study, grid=study.grid.with_intensity(list(intensity)))
+
+
 def refuse_endless(study: AnyStudy, motions: Motions, store: str | os.PathLike[str] | None) -> None:
     """Raise InvalidInput for a study that this machine cannot hold, or that takes longer than the limit."""
     outputs = outputs_of(study)
@@ -100,18 +108,22 @@ def planned(study: AnyStudy, motions: Motions) -> Planned:
         n_sr, n_f, n_t = study.grid.shape
         cost = cost_of(study.grid, motions, study.certify)
         samples = sum(motion.n for motion in motions)
+        intensity = study.grid.intensity
+        levels = () if intensity is None else (("intensities", intensity.size),)
         return Planned(
-            (("stiffness ratios", n_sr), ("pretensions", n_f), ("periods", n_t)),
+            (*levels, ("stiffness ratios", n_sr), ("pretensions", n_f), ("periods", n_t)),
             len(motions) * study.grid.size,
             cost.of_sweep(study.grid, motions),
             cost.transitions_per_sample * samples / len(motions),
             sum(of_frames.bytes_of(motions, study.grid, outputs).values()),
         )
+    intensity = study.grid.intensity
+    levels = () if intensity is None else (("intensities", intensity.size),)
     n_b, n_k, n_s = study.grid.shape
     storeys = study.grid.n_storeys
     return Planned(
-        (("buildings", n_b), ("storeys", storeys), ("stiffness scales", n_k), ("slip scales", n_s)),
-        len(motions) * n_b * n_k * n_s,
+        (*levels, ("buildings", n_b), ("storeys", storeys), ("stiffness scales", n_k), ("slip scales", n_s)),
+        len(motions) * study.grid.intensities.size * n_b * n_k * n_s,
         of_buildings.measured(motions, study.grid, study.certify),
         None,
         sum(of_buildings.bytes_of(motions, study.grid, outputs).values()),

@@ -4,7 +4,7 @@ import difflib
 import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from decimal import Decimal
 from functools import partial
 from pathlib import Path
@@ -22,14 +22,15 @@ from pydantic import (
     create_model,
 )
 
-from fdspec.errors import RecordError, StudyError
+from fdspec.errors import InvalidInput, RecordError, StudyError
 from fdspec.model.grid import GRID_FIELDS, FloatArray, Grid, checked, contradictions
 from fdspec.model.motion import GroundMotion
 from fdspec.model.toml_lines import key_lines, line_of, parsed
 from fdspec.records import catalogue, load_record, read_record
+from fdspec.runs.record_scaling import SCALING_FIELDS, Scaling, scaling_of
 from fdspec.variables import CUBE, demand_variables
 
-AXES: Final = ("stiffness_ratio", "pretension", "period")
+AXES: Final = ("stiffness_ratio", "pretension", "period", "intensity")
 
 STUDY_RECORDS: Final = ("FSR1", "FSR2", "FSR3", "FMR1", "FMR2", "FMR3", "FHR1", "FHR2", "FHR3")
 
@@ -63,6 +64,7 @@ class RecordFile:
     skip: int | None = None
     layout: str | None = None
     resample_to: float | None = None
+    scaling: Scaling | None = None
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -77,6 +79,8 @@ class Study:
         Names of the catalogue, or record files.
     scaled : bool
         Whether the catalogue's stand-ins are scaled to the study's PGA.
+    scaling : Scaling or None
+        Of every record that has none of its own, after that.
     outputs : tuple of str or None
         Variables of the cube; None for all.
     certify : bool
@@ -88,6 +92,7 @@ class Study:
     grid: Grid = field(default_factory=Grid.study)
     records: tuple[str | RecordFile, ...] = STUDY_RECORDS
     scaled: bool = True
+    scaling: Scaling | None = None
     outputs: tuple[str, ...] | None = None
     certify: bool = True
     folder: Path = Path()
@@ -136,7 +141,7 @@ class Study:
         RecordError
             When some cannot be used; one line of text for each.
         """
-        return find_records(self.records, folder=self.folder, scaled=self.scaled)
+        return find_records(self.records, folder=self.folder, scaled=self.scaled, scaling=self.scaling)
 
     def to_toml(self) -> str:
         """Return the study as the text of a study file, every field named, to be edited."""
@@ -152,6 +157,9 @@ class Study:
 records = {records_text(self.records)}
 # Scale the stand-ins of the catalogue to the study's peak ground acceleration.
 scaled = {bool_text(self.scaled)}
+# Scale every record: {{ factor }}, {{ pga }}, {{ sa, period }} or {{ target, period }}; m/s2, s. Two periods
+# are the ends of a band; a record's own table may say the same of it alone, with pair = its other component.
+{_scaling_text(self.scaling)}
 
 # Axes: a list, {{ start, stop, step }} or {{ start, stop, num }}, ends included.
 # Brace over frame stiffness.
@@ -160,6 +168,8 @@ stiffness_ratio = {axis_text(grid.stiffness_ratio)}
 pretension = {axis_text(grid.pretension)}
 # s, of the frame without its brace.
 period = {axis_text(grid.period)}
+# Factors on all records, a further axis of the cube; left out, there is none.
+{"# intensity = [0.5, 1.0, 2.0]" if grid.intensity is None else f"intensity = {axis_text(grid.intensity)}"}
 
 # kg
 floor_mass = {grid.floor_mass!r}
@@ -206,31 +216,56 @@ def is_catalogued(record: str) -> bool:
     return any(record.upper() == entry.name for entry in catalogue())
 
 
-def find_record(record: str | RecordFile, *, folder: Path = Path(), scaled: bool = True) -> GroundMotion:
+def find_record(
+    record: str | RecordFile, *, folder: Path = Path(), scaled: bool = True, scaling: Scaling | None = None
+) -> GroundMotion:
     """Load a record by its name in the catalogue or, when it is none, by its path relative to `folder`.
+
+    scaling: of a record that has none of its own.
 
     Raises
     ------
     RecordError
         When there is no such name and no such file, or the file cannot be used.
     """
-    if isinstance(record, str):
-        if is_catalogued(record) or not _is_path(record, folder):
-            return load_record(record, scaled=scaled)
-        record = RecordFile(record)
-    about = {key: value for key, value in asdict(record).items() if key != "path"}
-    return read_record(folder / record.path, **about)
+    own = None if isinstance(record, str) else record.scaling
+    scaling = own or scaling
+    motion = _found(record, folder, scaled)
+    if scaling is None:
+        return motion
+
+    def other(path: str, channel: str | None) -> GroundMotion:
+        about = RecordFile(path) if isinstance(record, str) else replace(record, path=path, name=None)
+        return _found(replace(about, channel=channel or about.channel), folder, scaled)
+
+    try:
+        return scaling.applied(motion, folder, other)
+    except InvalidInput as error:
+        raise RecordError(f"{motion.name}: {error}") from None
+
+
+def _found(record: str | RecordFile, folder: Path, scaled: bool) -> GroundMotion:
+    path = record if isinstance(record, str) else record.path
+    if is_catalogued(path) or not _is_path(path, folder):
+        return load_record(path, scaled=scaled)
+    given = {} if isinstance(record, str) else vars(record)
+    about = {key: value for key, value in given.items() if key not in ("path", "scaling")}
+    return read_record(folder / path, **about)
 
 
 def find_records(
-    records: Iterable[str | RecordFile], *, folder: Path = Path(), scaled: bool = True
+    records: Iterable[str | RecordFile],
+    *,
+    folder: Path = Path(),
+    scaled: bool = True,
+    scaling: Scaling | None = None,
 ) -> tuple[GroundMotion, ...]:
     """Load records in order; raise RecordError with one line for each that cannot be used."""
     found, mistakes = [], []
     for record in records:
         try:
-            found.append(find_record(record, folder=folder, scaled=scaled))
-        except RecordError as error:
+            found.append(find_record(record, folder=folder, scaled=scaled, scaling=scaling))
+        except (InvalidInput, RecordError) as error:
             mistakes.append(str(error))
     if mistakes:
         raise RecordError("\n".join(mistakes))
@@ -335,9 +370,13 @@ def record_field(value: object) -> str | RecordFile:
         return value
     if not isinstance(value, dict):
         raise ValueError(f"must be a name, a path or a table, got {value!r:.60}")
-    known = [field.name for field in fields(RecordFile)]
-    if unknown := [key for key in value if key not in known]:
-        raise ValueError(f"unknown key {unknown[0]!r} of a record; known are {', '.join(known)}")
+    known = [field.name for field in fields(RecordFile) if field.name != "scaling"]
+    if unknown := [key for key in value if key not in known and key not in SCALING_FIELDS]:
+        raise ValueError(
+            f"unknown key {unknown[0]!r} of a record; known are {', '.join((*known, *SCALING_FIELDS))}"
+        )
+    scaling = {key: part for key, part in value.items() if key in SCALING_FIELDS}
+    value = {key: part for key, part in value.items() if key in known}
     if "path" not in value:
         raise ValueError("a record given as a table needs path, its file")
     for key, part in value.items():
@@ -348,7 +387,7 @@ def record_field(value: object) -> str | RecordFile:
             raise ValueError(f"skip of a record must be a whole number of lines, 0 or more, got {part!r:.60}")
         if not seconds and key != "skip" and not isinstance(part, str):
             raise ValueError(f"{key} of a record must be a string, got {part!r:.60}")
-    return RecordFile(**value)
+    return RecordFile(**value, scaling=scaling_of(scaling) if scaling else None)
 
 
 def distinct(values: tuple[Any, ...]) -> tuple[Any, ...]:
@@ -391,6 +430,7 @@ def _study_file() -> type[BaseModel]:
         __config__=ConfigDict(extra="forbid"),
         records=(records, STUDY_RECORDS),
         scaled=(StrictBool, True),
+        scaling=(Annotated[Any, PlainValidator(scaling_of)], None),
         outputs=(outputs | None, None),
         certify=(StrictBool, True),
         **scalars_and_axes,
@@ -443,7 +483,17 @@ def records_text(records: tuple[str | RecordFile, ...]) -> str:
 
 
 def _table_text(record: RecordFile) -> str:
-    given = {key: value for key, value in asdict(record).items() if value is not None}
+    given = {key: value for key, value in vars(record).items() if value is not None and key != "scaling"}
+    return _inline({**given, **({} if record.scaling is None else record.scaling.given)})
+
+
+def _scaling_text(scaling: Scaling | None) -> str:
+    if scaling is None:
+        return "# scaling = { sa = 4.0, period = [0.2, 1.5] }"
+    return f"scaling = {_inline(scaling.given)}"
+
+
+def _inline(given: Mapping[str, Any]) -> str:
     parts = [
         f"{key} = {string_text(value) if isinstance(value, str) else repr(value)}"
         for key, value in given.items()

@@ -27,7 +27,7 @@ from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.task import Task, plan, require_per_task
 from fdspec.scheduling.threads import fan_out
-from fdspec.variables import CUBE, STUDY_DIMS
+from fdspec.variables import CUBE, INTENSITY_CUBE, STUDY_DIMS, Registry
 
 if TYPE_CHECKING:
     from fdspec.scheduling.task import Client
@@ -82,6 +82,7 @@ def sweep(
     slot_length: float | None = None,
     slot_stiffness: float | None = None,
     recentring_stiffness: float | None = None,
+    intensity: ArrayLike | None = None,
     outputs: Iterable[str] | None = None,
     certify: bool = True,
     workers: int | None = None,
@@ -118,6 +119,9 @@ def sweep(
         springs.  With them each history is integrated by itself, a thousand times slower, the cube has the
         demands of `fdspec.variables.demand_variables` too, and a history may end with the status
         ``collapsed``.  The limits that ride along stay those of the elastic frame.
+    intensity : array_like, optional
+        Factors on the ground motions, positive, strictly increasing: adds the dim ``intensity`` after
+        ``record``.  What is told of the records, ``pga`` among it, stays that of factor 1.
     outputs : iterable of str, optional
         Variables of the cube; unless given, all but those of `ON_REQUEST`.
     certify : bool
@@ -143,7 +147,8 @@ def sweep(
     -------
     xarray.Dataset
         Dims (record, stiffness_ratio, pretension, period); variables, units and meanings are those
-        of `fdspec.variables.CUBE`.  With a store it is read from there when it is used.
+        of `fdspec.variables.CUBE`, with intensities of `fdspec.variables.INTENSITY_CUBE`.  With a store it
+        is read from there when it is used.
 
     Raises
     ------
@@ -156,6 +161,10 @@ def sweep(
     -----
     The frame is the study's example (its Figure 7): k_f = floor_mass (2 pi / period)^2,
     k_d = stiffness_ratio k_f; equations (2) to (7).
+
+    A frame whose only strength is its slip force F is the same frame at every intensity s: the response to
+    s a_g under F is s times that to a_g under F / s, energies s^2 times, changes of phase the same.  So the
+    exact method computes intensities as further slip forces; other methods run the scaled record.
     """
     grid = Grid(
         stiffness_ratio=stiffness_ratio,  # type: ignore[arg-type]
@@ -175,6 +184,7 @@ def sweep(
         slot_length=slot_length,
         slot_stiffness=slot_stiffness,
         recentring_stiffness=recentring_stiffness,
+        intensity=intensity,  # type: ignore[arg-type]
     )
     motions = named(motions)
     usual = usual_outputs(grid)
@@ -194,13 +204,14 @@ def sweep(
     fan = partial(
         fan_out,
         motions=motions,
-        each=n_f,
+        each=n_f * grid.intensities.size,
         warm=warm,
         workers=workers,
         scheduler=scheduler,
         client=client,
         progress=progress,
     )
+    registry = registry_for(grid)
     cube_of = partial(
         assemble,
         axes={
@@ -209,8 +220,9 @@ def sweep(
             "period": grid.period,
             "slip_force": grid.slip_force,
             "kinetic_slip_force": grid.kinetic_slip_force,
+            **({} if grid.intensity is None else {"intensity": grid.intensity}),
         },
-        registry=CUBE,
+        registry=registry,
         motions=motions,
         title="Peak response of single-storey frames with friction dampers",
         parameters={
@@ -228,7 +240,7 @@ def sweep(
         return sweep_into(
             store,
             cube_of({}),
-            [CUBE[name] for name in wanted],
+            [registry[name] for name in wanted],
             partial(_block, grid, run, wanted),
             fan,
             items=COLUMNS,
@@ -246,10 +258,17 @@ def bytes_of(motions: Sequence[GroundMotion], grid: Grid, outputs: Iterable[str]
     """Bytes of each variable of the cube."""
     n_sr, n_f, n_t = grid.shape
     lengths = {"record": len(motions), "stiffness_ratio": n_sr, "pretension": n_f, "period": n_t}
+    lengths["intensity"] = grid.intensities.size
+    registry = registry_for(grid)
     return {
-        name: math.prod(lengths[dim] for dim in CUBE[name].dims) * np.dtype(CUBE[name].dtype).itemsize
+        name: math.prod(lengths[dim] for dim in registry[name].dims) * np.dtype(CUBE[name].dtype).itemsize
         for name in outputs
     }
+
+
+def registry_for(grid: Grid) -> Registry:
+    """Return the variables of this grid's cube."""
+    return CUBE if grid.intensity is None else INTENSITY_CUBE
 
 
 def refuse_endless(
@@ -298,17 +317,21 @@ def _variables(
     """Put what the tasks returned where it stands in the cube."""
     rows = rows_of(grid)
     n_sr, n_f, n_t = grid.shape
+    n_i = grid.intensities.size
     responses: dict[str, NDArray[Any]] = {
-        name: np.empty((n_r, n_sr, n_f, n_t), dtype=CUBE[name].dtype) for name in wanted if name in rows
+        name: np.empty((n_r, n_i, n_sr, n_f, n_t), dtype=CUBE[name].dtype) for name in wanted if name in rows
     }
-    bare: dict[str, NDArray[Any]] = {name: np.empty((n_r, n_t)) for name in wanted if name in BARE}
-    braced: dict[str, NDArray[Any]] = {name: np.empty((n_r, n_sr, n_t)) for name in wanted if name in BRACED}
+    bare: dict[str, NDArray[Any]] = {name: np.empty((n_r, n_i, n_t)) for name in wanted if name in BARE}
+    braced: dict[str, NDArray[Any]] = {
+        name: np.empty((n_r, n_i, n_sr, n_t)) for name in wanted if name in BRACED
+    }
     for (r, columns), (out, held, free) in zip(tasks, parts, strict=True):
         ratio, period = np.unravel_index(columns, (n_sr, n_t))
         for name, values in responses.items():
-            values[r, ratio, :, period] = out[:, :, rows.index(name)]
+            values[r, :, ratio, :, period] = out[..., rows.index(name)]
         for name, values in braced.items():
-            values[r, ratio, period] = held[:, rows.index(BRACED[name])]
+            values[r, :, ratio, period] = held[..., rows.index(BRACED[name])]
         for name, values in bare.items():
-            values[r, columns[columns < n_t]] = free[:, rows.index(BARE[name])]
-    return responses | bare | braced
+            values[r, :, columns[columns < n_t]] = free[..., rows.index(BARE[name])]
+    found = responses | bare | braced
+    return found if grid.intensity is not None else {name: values[:, 0] for name, values in found.items()}

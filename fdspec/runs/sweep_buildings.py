@@ -25,7 +25,7 @@ from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.task import Task, cores, plan, require_per_task
 from fdspec.scheduling.threads import fan_out
-from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS, demand_variables
+from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS, INTENSITY_BUILDING_CUBE, Registry, demand_variables
 
 if TYPE_CHECKING:
     from fdspec.scheduling.task import Client
@@ -62,6 +62,7 @@ def sweep_buildings(
     *,
     slip_scale: ArrayLike,
     stiffness_scale: ArrayLike,
+    intensity: ArrayLike | None = None,
     outputs: Iterable[str] | None = None,
     certify: bool = True,
     workers: int | None = None,
@@ -91,6 +92,9 @@ def sweep_buildings(
     stiffness_scale : array_like
         Factors on the stiffness of all braces, positive, strictly increasing.  A dashpot beside a brace
         goes with the square root: the brace keeps its damping ratio.  The frame's own damping stays.
+    intensity : array_like, optional
+        Factors on the ground motions, positive, strictly increasing: adds the dim ``intensity`` after
+        ``record``.  What is told of the records, ``pga`` among it, stays that of factor 1.
     outputs : iterable of str, optional
         Variables of the cube; all unless given.
     certify : bool
@@ -117,7 +121,8 @@ def sweep_buildings(
         Where a building has columns that yield, slots, gravity or links, all cells have the demands on
         these too (`fdspec.variables.demand_variables`), and a history may end with the status ``collapsed``.
         Dims (record, building, stiffness_scale, slip_scale) and, for what each storey has of its own,
-        storey; variables, units and meanings are those of `fdspec.variables.BUILDING_CUBE`.
+        storey; variables, units and meanings are those of `fdspec.variables.BUILDING_CUBE`, with intensities
+        of `fdspec.variables.INTENSITY_BUILDING_CUBE`.
 
     Raises
     ------
@@ -144,11 +149,12 @@ def sweep_buildings(
     >>> dict(cube.peak_drift.sizes)
     {'record': 1, 'building': 1, 'stiffness_scale': 1, 'slip_scale': 2, 'storey': 2}
     """
-    grid = BuildingGrid(buildings, stiffness_scale, slip_scale)
+    grid = BuildingGrid(buildings, stiffness_scale, slip_scale, intensity)
     motions = named(motions)
     require_per_task(cells_per_task, "cells_per_task")
     wanted = chosen(outputs, known_outputs(grid), certify)
-    histories = _ends(grid)[-1 if set(LIMITS) & set(wanted) else 0]
+    each = _ends(grid)[-1 if set(LIMITS) & set(wanted) else 0]
+    histories = grid.intensities.size * each
     refuse_endless(motions, grid, wanted, store)
     seconds = _seconds(motions, grid, histories)
     warn_of_units(
@@ -170,7 +176,7 @@ def sweep_buildings(
     cube_of = partial(
         assemble,
         axes=_axes(grid),
-        registry=BUILDING_CUBE,
+        registry=_registry(grid),
         motions=motions,
         title="Peak response of buildings with friction dampers",
         parameters=parameters_of(grid, wanted, certify),
@@ -182,7 +188,7 @@ def sweep_buildings(
         return sweep_into(
             store,
             cube_of({}),
-            [BUILDING_CUBE[name] for name in wanted],
+            [_registry(grid)[name] for name in wanted],
             partial(_block, grid, certify, wanted),
             fan,
             items=CELLS,
@@ -197,7 +203,7 @@ def sweep_buildings(
             "store, store='cube.zarr', what is finished is kept",
             expected / 60.0,
         )
-    parts = fan(partial(_run, grid, certify), tasks=tasks)
+    parts = fan(partial(_run, grid, certify, each), tasks=tasks)
     return cube_of(_variables(grid, _rows(grid), len(motions), tasks, parts, wanted))
 
 
@@ -214,6 +220,7 @@ def parameters_of(grid: BuildingGrid, wanted: Sequence[str], certify: bool) -> d
         },
         "stiffness_scale": grid.stiffness_scale,
         "slip_scale": grid.slip_scale,
+        **({} if grid.intensity is None else {"intensity": grid.intensity}),
         "certify": certify,
         "outputs": list(wanted),
     }
@@ -221,10 +228,11 @@ def parameters_of(grid: BuildingGrid, wanted: Sequence[str], certify: bool) -> d
 
 def bytes_of(motions: Sequence[GroundMotion], grid: BuildingGrid, outputs: Iterable[str]) -> dict[str, int]:
     """Bytes of each variable of the cube."""
-    lengths = dict(zip(BUILDING_DIMS, (len(motions), *grid.shape), strict=True)) | {"storey": grid.n_storeys}
+    lengths = dict(zip(BUILDING_DIMS, (len(motions), *grid.shape), strict=True))
+    lengths |= {"storey": grid.n_storeys, "intensity": grid.intensities.size}
+    registry = _registry(grid)
     return {
-        name: math.prod(lengths[dim] for dim in BUILDING_CUBE[name].dims)
-        * np.dtype(BUILDING_CUBE[name].dtype).itemsize
+        name: math.prod(lengths[dim] for dim in registry[name].dims) * np.dtype(registry[name].dtype).itemsize
         for name in outputs
     }
 
@@ -237,7 +245,7 @@ def refuse_endless(
 ) -> None:
     """Raise InvalidInput for a sweep that this machine cannot hold or that takes longer than the limit."""
     outputs = tuple(outputs)
-    histories = _ends(grid)[-1 if set(LIMITS) & set(outputs) else 0]
+    histories = grid.intensities.size * _ends(grid)[-1 if set(LIMITS) & set(outputs) else 0]
     what = f"a sweep of {len(motions) * histories:.4g} histories"
     size = float(sum(bytes_of(motions, grid, outputs).values()))
     if store is None:
@@ -260,16 +268,16 @@ def measured(motions: Sequence[GroundMotion], grid: BuildingGrid, certify: bool 
     cells = _ends(grid)[0]
     count = min(cells, SAMPLE)
     chosen_cells = ((np.arange(count) + 0.5) * cells / count).astype(np.int64)
-    _run(grid, certify, chosen_cells[:1], window)  # loads the kernels
+    _run(grid, certify, _ends(grid)[-1], chosen_cells[:1], window)  # loads the kernels
     started = time.thread_time()
-    _run(grid, certify, chosen_cells, window)
+    _run(grid, certify, _ends(grid)[-1], chosen_cells, window)
     each = (time.thread_time() - started) / (count * window.n)
-    return each * sum(motion.n for motion in motions) * _ends(grid)[-1]
+    return each * sum(motion.n for motion in motions) * grid.intensities.size * _ends(grid)[-1]
 
 
 def rough_seconds(motions: Sequence[GroundMotion], grid: BuildingGrid) -> float:
     """Core time of all histories, s, roughly."""
-    return sum(_seconds(motions, grid, _ends(grid)[-1]))
+    return sum(_seconds(motions, grid, grid.intensities.size * _ends(grid)[-1]))
 
 
 def _seconds(motions: Sequence[GroundMotion], grid: BuildingGrid, histories: int) -> list[float]:
@@ -289,20 +297,26 @@ def _block(
     b, k, s = map(np.unique, np.unravel_index(cells, grid.shape))
     # What lacks an axis is computed with the block that comes first along it.
     first = {"building": True, "stiffness_scale": k[0] == 0, "slip_scale": s[0] == 0}
-    mine = [
-        name for name in wanted if all(first[dim] for dim in CELLS if dim not in BUILDING_CUBE[name].dims)
-    ]
+    registry = _registry(grid)
+    mine = [name for name in wanted if all(first[dim] for dim in CELLS if dim not in registry[name].dims)]
     items = [cells]
     if set(LIMITS) & set(mine):
         end, braced, _ = _ends(grid)
         items += [end + (b[:, np.newaxis] * grid.shape[1] + k).ravel(), braced + b]
-    part, numbers = grid.part(b, k, s), np.concatenate(items)
+    each = _ends(grid)[-1]
+    levels = each * np.arange(grid.intensities.size)[:, np.newaxis]
+    numbers = (levels + np.concatenate(items)).ravel()
     task = Task(0, np.arange(numbers.size))
-    return _variables(part, _rows(grid), 1, [task], [_run(grid, certify, numbers, motion)], mine)
+    done = _run(grid, certify, each, numbers, motion)
+    return _variables(grid.part(b, k, s), _rows(grid), 1, [task], [done], mine)
+
+
+def _registry(grid: BuildingGrid) -> Registry:
+    return BUILDING_CUBE if grid.intensity is None else INTENSITY_BUILDING_CUBE
 
 
 def _ends(grid: BuildingGrid) -> tuple[int, int, int]:
-    """Where the histories of one record end: those of the cells, of braced buildings, of bare frames."""
+    """Where histories of a record at one intensity end: of cells, of braced buildings, of bare frames."""
     n_b, n_k, n_s = grid.shape
     cells = n_b * n_k * n_s
     return cells, cells + n_b * n_k, cells + n_b * n_k + n_b
@@ -360,9 +374,32 @@ def _warm(grid: BuildingGrid) -> None:
 
 
 def _run(
+    grid: BuildingGrid, certify: bool, each: int, histories: IntArray, motion: GroundMotion
+) -> tuple[FloatArray, FloatArray]:
+    """Integrate some histories of a record: results by storey (m, rows, N) and totals (m, entries).
+
+    each: histories at one intensity; those of the first come first.
+    """
+    levels, of_level = np.divmod(histories, each)
+    by_storey = np.empty((histories.size, len(_rows(grid)), grid.n_storeys))
+    totals = np.empty((histories.size, len(_totals())))
+    for level in np.unique(levels).tolist():
+        at, s = levels == level, float(grid.intensities[level])
+        shaken = motion if s == 1.0 else motion.times(s)
+        by_storey[at], totals[at] = _run_level(grid, certify, of_level[at], shaken)
+    return by_storey, totals
+
+
+def _totals() -> tuple[str, ...]:
+    from fdspec.kernels.frame.results import TOTALS
+
+    return TOTALS
+
+
+def _run_level(
     grid: BuildingGrid, certify: bool, histories: IntArray, motion: GroundMotion
 ) -> tuple[FloatArray, FloatArray]:
-    """Integrate some histories of a record: results by storey (m, rows, N) and totals (m, entries)."""
+    """Integrate the same, all at the intensity of this motion."""
     if _with_devices(grid):
         results = [_run_one(grid, certify, int(history), motion) for history in histories]
         return np.stack([rows for rows, _ in results]), np.stack([whole for _, whole in results])
@@ -434,27 +471,31 @@ def _variables(
     from fdspec.kernels.frame.results import TOTALS
 
     cells, braced, bare = _ends(grid)
+    n_i = grid.intensities.size
     histories = 1 + max(int(task.items.max()) for task in tasks)
     by_storey = np.empty((len(rows), n_r, histories, grid.n_storeys))
     totals = np.empty((len(TOTALS), n_r, histories))
     for (r, items), (of_storeys, of_all) in zip(tasks, parts, strict=True):
         by_storey[:, r, items] = of_storeys.transpose(1, 0, 2)
         totals[:, r, items] = of_all.T
-    results = dict(zip(rows, by_storey, strict=True)) | dict(zip(TOTALS, totals, strict=True))
+    levels = (n_r, n_i, histories // n_i)
+    results = dict(zip(rows, by_storey.reshape(len(rows), *levels, grid.n_storeys), strict=True))
+    results |= dict(zip(TOTALS, totals.reshape(len(TOTALS), *levels), strict=True))
     results["peak_base_shear"] = results["peak_storey_shear"][..., 0]
     results["residual_drift"] = np.diff(results["residual_displacement"], prepend=0.0)
     acceleration = results["peak_acceleration"]
     limits = {
-        "elastic_acceleration": acceleration[:, braced:bare],
-        "braced_acceleration": acceleration[:, cells:braced],
+        "elastic_acceleration": acceleration[:, :, braced:bare],
+        "braced_acceleration": acceleration[:, :, cells:braced],
     }
     n_b, n_k, n_s = grid.shape
     lengths = {"record": n_r, "building": n_b, "stiffness_scale": n_k, "slip_scale": n_s}
-    lengths["storey"] = grid.n_storeys
+    lengths |= {"storey": grid.n_storeys, "intensity": n_i}
+    registry = _registry(grid)
     variables: dict[str, NDArray[np.generic]] = {}
     for name in wanted:
-        variable = BUILDING_CUBE[name]
-        values = limits[name] if name in limits else results[name][:, :cells]
+        variable = registry[name]
+        values = limits[name] if name in limits else results[name][:, :, :cells]
         shape = [lengths[dim] for dim in variable.dims]
         variables[name] = values.reshape(shape).astype(variable.dtype)
     return variables
@@ -465,6 +506,7 @@ def _axes(grid: BuildingGrid) -> dict[str, object]:
         "building": list(grid.names),
         "stiffness_scale": grid.stiffness_scale,
         "slip_scale": grid.slip_scale,
+        **({} if grid.intensity is None else {"intensity": grid.intensity}),
         "storey": np.arange(1, grid.n_storeys + 1),
         "slip_force": grid.slip_force,
         "kinetic_slip_force": grid.kinetic_slip_force,

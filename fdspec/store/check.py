@@ -29,6 +29,9 @@ from fdspec.variables import (
     BUILDING_CUBE,
     CUBE,
     HISTORY,
+    INTENSITY,
+    INTENSITY_BUILDING_CUBE,
+    INTENSITY_CUBE,
     NOT_COMPUTED,
     STATUSES,
     STUDY_DIMS,
@@ -107,9 +110,9 @@ def _registry(cube: xr.Dataset) -> Registry | None:
     """Return what the dataset should hold; None where it is no cube and no history."""
     dims = set(cube.dims)
     if "building" in dims and "slip_scale" in dims:
-        return BUILDING_CUBE
+        return INTENSITY_BUILDING_CUBE if INTENSITY in dims else BUILDING_CUBE
     if len(dims & set(STUDY_DIMS)) == len(STUDY_DIMS):
-        return CUBE
+        return INTENSITY_CUBE if INTENSITY in dims else CUBE
     return HISTORY if "time" in dims and "displacement" in cube.variables else None
 
 

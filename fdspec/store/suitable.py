@@ -13,7 +13,7 @@ from fdspec.store.layout import is_text
 from fdspec.store.origin import parameters_of
 from fdspec.store.plausible import wrong_coordinates
 from fdspec.store.refusals import no_resources
-from fdspec.variables import STUDY_DIMS
+from fdspec.variables import INTENSITY, STUDY_DIMS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -34,6 +34,12 @@ def require_cube(dataset: xr.Dataset, path: str | os.PathLike[str], what: str) -
         raise InvalidInput(
             f"{os.fspath(path)} has no dimension {', '.join(lacking)}; {needs} (select with lists to keep "
             "dims)"
+        )
+    if INTENSITY in dataset.dims:
+        levels = ", ".join(f"{level:g}" for level in np.atleast_1d(dataset[INTENSITY].values)[:20])
+        raise InvalidInput(
+            f"{os.fspath(path)} is a cube over intensities ({levels}); {what} need one of them: "
+            "fdspec.save(cube.sel(intensity=...), path) writes it"
         )
     empty = [dim for dim in STUDY_DIMS if not dataset.sizes[dim]]
     if empty:

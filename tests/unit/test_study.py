@@ -56,6 +56,7 @@ def test_every_field_of_the_grid_can_be_written() -> None:
         "slot_length": 0.01,
         "slot_stiffness": 1e6,
         "recentring_stiffness": 1e5,
+        "intensity": [0.5, 2.0],
     }
     assert set(values) == set(GRID_FIELDS)
     study = Study.parse("\n".join(f"{name} = {value}" for name, value in values.items()))
@@ -120,7 +121,8 @@ def test_an_axis_may_be_a_table() -> None:
 
 UNKNOWN_KEY = (
     "records: unknown key 'unit' of a record; "
-    "known are path, units, dt, channel, name, skip, layout, resample_to"
+    "known are path, units, dt, channel, name, skip, layout, resample_to, factor, pga, sa, target, "
+    "target_units, period, damping_ratio, pair, pair_channel, combination"
 )
 
 
