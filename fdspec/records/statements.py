@@ -69,7 +69,7 @@ _BARE_COUNT: Final = re.compile(
 )
 _COUNT_WITHOUT_NUMBER: Final = re.compile(rf"(?<![\w]){_COUNT_KEY}\s{{0,3}}[:=]\s{{0,12}}(?:,|;|[a-z]|$)")
 _COUNT_NOUN: Final = re.compile(
-    r"(?<![\w.+-])(?P<n>\d{1,12})\s{1,3}(?:(?:data|accelerogram|acceleration|accel|acc|record|time|discrete|digiti[sz]ed|"
+    r"(?<![\w.^+-])(?P<n>\d{1,12})\s{1,3}(?:(?:data|accelerogram|acceleration|accel|acc|record|time|discrete|digiti[sz]ed|"
     rf"equally[ -]spaced|uncorrected|corrected)\s){{0,2}}{_NOUN}\b"
     r"(?!\s{0,2}(?:/|per\b|a\b|across|in each|each|in a\b|on each|pro\b|par\b|por\b|wide|to the))"
 )
@@ -81,7 +81,7 @@ _KEY_RATE: Final = re.compile(
     r"\s{0,3}(?P<unit>hz|khz|sps|samples?/s(?:ec)?|1/s)?"
 )
 _RATE_NOUN: Final = re.compile(
-    rf"(?<![\w.+-])(?P<n>{_NUMBER})\s{{0,3}}(?:(?:samples?|points?|pts|values?|data)\s{{0,2}}(?:/|per|a)\s{{0,2}}"
+    rf"(?<![\w.^+-])(?P<n>{_NUMBER})\s{{0,3}}(?:(?:samples?|points?|pts|values?|data)\s{{0,2}}(?:/|per|a)\s{{0,2}}"
     r"(?:s|sec|second)\b|sps\b)(?!\s{0,3}[:=])"
 )
 _NUMBERS_THEN_KEYS: Final = re.compile(
