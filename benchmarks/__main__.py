@@ -12,7 +12,7 @@ from statistics import median
 import numpy as np
 
 import fdspec
-from benchmarks import elastic, fixed_step, frames, general, page, start, study, timing
+from benchmarks import elastic, fixed_step, frames, general, page, side_by_side, start, study, timing
 from benchmarks.problem import SLIPPING_ELEVEN, STUDY_ELEVEN, Problem, answer, slipping_cells
 from benchmarks.table import percent, seconds, show
 
@@ -250,6 +250,7 @@ PARTS: dict[str, tuple[Callable[[], None], ...]] = {
     "history": (one_history, failures),
     "ordinate": (ordinate,),
     "study": (whole_study,),
+    "storeys": (side_by_side.sweeps, side_by_side.peers),
     "scaling": (scaling,),
     "start": (starting,),
     "page": (browsing,),

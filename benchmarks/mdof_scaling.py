@@ -16,8 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.table import seconds, show
-from fdspec.kernels.frame.history import RADIANS, STOREY_RESULTS, TOTALS, integrate
+from fdspec.kernels.frame.history import integrate
 from fdspec.kernels.frame.output import STOREY_TRACES, TOTAL_TRACES
+from fdspec.kernels.frame.results import RADIANS, STOREY_RESULTS, TOTALS
 from fdspec.model.building import Building, ModalDamping, RayleighDamping
 
 REFERENCE = Path(__file__).parents[1] / "tests" / "reference" / "mdof_peaks.json"

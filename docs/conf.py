@@ -1,12 +1,18 @@
-"""Settings of the documentation: pages, notebooks kept as Python files, docstrings, the registry's tables."""
+"""Settings of the documentation: pages, notebooks kept as Python files, docstrings, and what is generated."""
 
 import os
+import sys
+from pathlib import Path
 
 from sphinx.application import Sphinx
 from sphinx.util import logging
 
 import fdspec
 from fdspec import variables
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+from generated import commands  # beside this file
 
 # Kernels inherit it, and would then keep the figures of pyplot to themselves.
 os.environ.pop("MPLBACKEND", None)
@@ -24,44 +30,52 @@ extensions = [
     "sphinx.ext.viewcode",
     "sphinx-mathjax-offline",
 ]
-exclude_patterns = ["_build", "conf.py", "jupyter_execute", "notebooks/README.md"]
+exclude_patterns = ["_build", "conf.py", "generated.py", "jupyter_execute", "notebooks/README.md"]
 
 html_theme = "furo"
 html_title = f"fdspec {release}"
+html_static_path = ["_static"]
+html_css_files = ["fdspec.css"]
 
-myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
+myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 # A changelog repeats its headings.
 suppress_warnings = ["myst.xref_ambiguous"]
 
 # docs/notebooks is a link to notebooks/, whose files are Python in the percent format; each runs in a kernel
-# of its own, and a cell that fails fails the build. So does a notebook that takes longer than this, s. The
-# gallery is read first, and pays for kernels that were never compiled: so cells may take longer.
-NOTEBOOK_LIMIT = 120
+# of its own, and a cell that fails fails the build. How long they take is told at the end and fails nothing:
+# a clock says more of the machine than of the page. The limit is for what hangs.
 nb_custom_formats = {".py": ["jupytext.reads", {"fmt": "py:percent"}]}
 nb_execution_mode = "force"
-nb_execution_timeout = 600
+nb_execution_timeout = 3600
 nb_execution_raise_on_error = True
 nb_merge_streams = True
 
 autodoc_member_order = "bysource"
-autodoc_typehints_format = "short"
+# Docstrings say what each argument is, with shape and unit; types would spread a signature over a page.
+autodoc_typehints = "none"
+autodoc_preserve_defaults = True
+maximum_signature_line_length = 88
 python_use_unqualified_type_names = True
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 
 
 def setup(app: Sphinx) -> None:
-    """Hook the tables and the clock in."""
-    app.connect("source-read", fill_tables)
-    app.connect("env-updated", check_times)
+    """Hook in what is generated, and tell how long the notebooks took."""
+    app.connect("source-read", fill)
+    app.connect("env-updated", tell_times)
 
 
-def fill_tables(_: Sphinx, docname: str, source: list[str]) -> None:
-    """Put the registry's tables into the page on files."""
+def fill(_: Sphinx, docname: str, source: list[str]) -> None:
+    """Put the registry's tables into the page on files, and every command's help into its reference."""
     if docname == "schema":
         for name in ("CUBE", "BUILDING_CUBE", "HISTORY"):
             source[0] = source[0].replace(f"@@{name}@@", table_of(getattr(variables, name)))
+    if docname == "cite":
+        source[0] = source[0].replace("@@VERSION@@", release)
+    if docname == "cli":
+        source[0] = source[0].replace("@@COMMANDS@@", commands())
 
 
 def table_of(registry: variables.Registry) -> str:
@@ -82,13 +96,10 @@ def meaning(variable: variables.Variable) -> str:
     return f"{variable.long_name}: {', '.join(f'{code} {name}' for code, name in named)}"
 
 
-def check_times(_: Sphinx, env: object) -> None:
-    """Warn, which fails the build, of each notebook that took too long; say how long all took."""
+def tell_times(_: Sphinx, env: object) -> None:
+    """Say how long each notebook took."""
     logger = logging.getLogger(__name__)
     for name in sorted(getattr(env, "nb_metadata", {})):
         told = env.nb_metadata[name].get("exec_data")
-        if not told:
-            continue
-        logger.info("%s took %.1f s", name, told["runtime"])
-        if name.startswith("notebooks/") and told["runtime"] > NOTEBOOK_LIMIT:
-            logger.warning("%s took %.0f s, over the limit of %d s", name, told["runtime"], NOTEBOOK_LIMIT)
+        if told:
+            logger.info("%s took %.1f s", name, told["runtime"])

@@ -7,8 +7,7 @@ packages: `fdspec.figures`, `fdspec.measures`, `fdspec.signals` and so on need n
 from typing import TYPE_CHECKING
 
 from fdspec.on_demand import submodules
-
-__version__ = "0.1.0"
+from fdspec.version import __version__ as __version__
 
 if TYPE_CHECKING:
     from fdspec.choice.distribution import optimise as optimise
@@ -22,6 +21,9 @@ if TYPE_CHECKING:
     from fdspec.errors import RecordError as RecordError
     from fdspec.errors import StoreError as StoreError
     from fdspec.errors import StudyError as StudyError
+    from fdspec.measures.fragility import fragility as fragility
+    from fdspec.measures.risk import risk as risk
+    from fdspec.measures.summary import summary as summary
     from fdspec.model.building import Building as Building
     from fdspec.model.damping import DampingMatrix as DampingMatrix
     from fdspec.model.damping import ModalDamping as ModalDamping
@@ -31,10 +33,13 @@ if TYPE_CHECKING:
     from fdspec.model.motion import GroundMotion as GroundMotion
     from fdspec.records import load_record as load_record
     from fdspec.records import read_record as read_record
+    from fdspec.runs.floor_spectra import floor_spectra as floor_spectra
+    from fdspec.runs.inelastic_spectra import inelastic_spectra as inelastic_spectra
     from fdspec.runs.simulate import simulate as simulate
     from fdspec.runs.study import Study as Study
     from fdspec.runs.sweep import sweep as sweep
     from fdspec.runs.sweep_buildings import sweep_buildings as sweep_buildings
+    from fdspec.store.combine import combine as combine
     from fdspec.store.export import export as export
     from fdspec.store.netcdf import open as open  # noqa: A004
     from fdspec.store.netcdf import save as save
@@ -51,16 +56,21 @@ _NAMES = {
         "StoreError",
         "StudyError",
     ),
+    "measures": ("summary",),
     "model.building": ("Building",),
     "model.damping": ("DampingMatrix", "ModalDamping", "RayleighDamping"),
     "model.link": ("Link", "TensionBrace"),
     "model.motion": ("GroundMotion",),
     "records": ("load_record", "read_record"),
+    "measures.fragility": ("fragility",),
+    "measures.risk": ("risk",),
+    "runs.floor_spectra": ("floor_spectra",),
+    "runs.inelastic_spectra": ("inelastic_spectra",),
     "runs.simulate": ("simulate",),
     "runs.study": ("Study",),
     "runs.sweep": ("sweep",),
     "runs.sweep_buildings": ("sweep_buildings",),
-    "store": ("export", "open", "save"),
+    "store": ("combine", "export", "open", "save"),
 }
 """Module -> its names that are the package's own; the imports above tell type checkers the same."""
 

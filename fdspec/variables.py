@@ -8,7 +8,7 @@ attributes. A new output is one more entry.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Final
 
@@ -26,6 +26,10 @@ STUDY_DIMS: Final = ("record", "stiffness_ratio", "pretension", "period")
 """The dims of the study's cube, slowest first."""
 
 
+INTENSITY: Final = "intensity"
+"""The dim of factors on the ground motions: second, after the record, in cubes that have it."""
+
+
 @dataclass(frozen=True, slots=True)
 class Variable:
     """One variable of a Dataset.
@@ -41,6 +45,9 @@ class Variable:
     attributes: Mapping[str, object] = field(default_factory=dict)
     on_request: bool = False
     """Whether a sweep computes it only where its outputs name it."""
+    degree: int | None = None
+    """Power of s by which it grows when the motion and all strengths are s times as large; None where it is
+    no result of a history."""
 
     @property
     def cf_attributes(self) -> dict[str, object]:
@@ -112,48 +119,88 @@ def response_variables(grid: tuple[str, ...], storey: tuple[str, ...] = ()) -> t
     each = (*grid, *storey)
     dampers = "all dampers" if storey else "the damper"
     return (
-        Variable("peak_acceleration", each, "m/s^2", "peak absolute acceleration of the floor"),
-        Variable("peak_displacement", each, "m", "peak displacement of the floor relative to the ground"),
-        Variable("peak_velocity", each, "m/s", "peak velocity of the floor relative to the ground"),
-        Variable("peak_base_shear", grid, "N", "peak shear force on the ground, frame and brace together"),
+        Variable("peak_acceleration", each, "m/s^2", "peak absolute acceleration of the floor", degree=1),
+        Variable(
+            "peak_displacement", each, "m", "peak displacement of the floor relative to the ground", degree=1
+        ),
+        Variable("peak_velocity", each, "m/s", "peak velocity of the floor relative to the ground", degree=1),
+        Variable(
+            "peak_base_shear", grid, "N", "peak shear force on the ground, frame and brace together", degree=1
+        ),
         Variable(
             "residual_displacement",
             each,
             "m",
             "displacement of the floor relative to the ground at the record's end",
+            degree=1,
         ),
-        Variable("slip_travel", each, "m", "total distance slipped in the damper"),
-        Variable("transitions", grid, "1", f"number of changes of phase of {dampers}", "int64"),
-        Variable("dissipated_energy", grid, "J", f"energy dissipated by friction in {dampers}"),
-        Variable("input_energy", grid, "J", "energy put in by the ground motion, in the ground's frame"),
-        Variable("energy_error", grid, "1", "error of the energy balance relative to the energy in play"),
-        Variable("status", grid, "", "how the integration ended", "int8", _flags(STATUSES)),
-        *demand_variables(each),
+        Variable("slip_travel", each, "m", "total distance slipped in the damper", degree=1),
+        Variable("transitions", grid, "1", f"number of changes of phase of {dampers}", "int64", degree=0),
+        Variable("dissipated_energy", grid, "J", f"energy dissipated by friction in {dampers}", degree=2),
+        Variable(
+            "input_energy", grid, "J", "energy put in by the ground motion, in the ground's frame", degree=2
+        ),
+        Variable(
+            "energy_error", grid, "1", "error of the energy balance relative to the energy in play", degree=0
+        ),
+        Variable("status", grid, "", "how the integration ended", "int8", _flags(STATUSES), degree=0),
+        *demand_variables(each, on_request=bool(storey)),
     )
 
 
-def demand_variables(each: tuple[str, ...]) -> tuple[Variable, ...]:
-    """Return what a designer reads off of each storey, beside the floor's peaks."""
+def demand_variables(each: tuple[str, ...], *, on_request: bool = False) -> tuple[Variable, ...]:
+    """Return what a designer reads off of each storey, beside the floor's peaks.
+
+    on_request: whether a sweep computes the peaks only where they are named.
+    """
     return (
-        Variable("peak_slip", each, "m", "largest slip of the damper from where it was fastened"),
-        Variable("residual_slip", each, "m", "final slip offset of the damper"),
-        Variable("peak_brace_force", each, "N", "peak force in the spring and dashpot of the brace"),
-        Variable("peak_column_shear", each, "N", "peak shear force of the columns, without P-delta"),
+        Variable(
+            "peak_slip",
+            each,
+            "m",
+            "largest slip of the damper from where it was fastened",
+            on_request=on_request,
+            degree=1,
+        ),
+        Variable("residual_slip", each, "m", "final slip offset of the damper", degree=1),
+        Variable(
+            "peak_brace_force",
+            each,
+            "N",
+            "peak force in the spring and dashpot of the brace",
+            on_request=on_request,
+            degree=1,
+        ),
+        Variable(
+            "peak_column_shear",
+            each,
+            "N",
+            "peak shear force of the columns, without P-delta",
+            on_request=on_request,
+            degree=1,
+        ),
     )
 
 
 def device_variables(each: tuple[str, ...]) -> tuple[Variable, ...]:
     """Return what only buildings with devices have of each storey."""
     return (
-        Variable("peak_column_deformation", each, "m", "peak drift of the columns that can yield"),
-        Variable("plastic_drift", each, "m", "final plastic drift of the columns"),
-        Variable("ductility", each, "1", "peak drift over yield drift of the columns"),
-        Variable("column_energy", each, "J", "energy dissipated by yielding of the columns"),
-        Variable("column_events", each, "1", "number of times the columns yielded or unloaded", "int64"),
+        Variable("peak_column_deformation", each, "m", "peak drift of the columns that can yield", degree=1),
+        Variable("plastic_drift", each, "m", "final plastic drift of the columns", degree=1),
+        Variable("ductility", each, "1", "peak drift over yield drift of the columns", degree=0),
+        Variable("column_energy", each, "J", "energy dissipated by yielding of the columns", degree=2),
         Variable(
-            "slot_events", each, "1", "number of contacts and releases at the ends of the slot", "int64"
+            "column_events", each, "1", "number of times the columns yielded or unloaded", "int64", degree=0
         ),
-        Variable("peak_drift_ratio", each, "1", "peak drift over the height of the storey"),
+        Variable(
+            "slot_events",
+            each,
+            "1",
+            "number of contacts and releases at the ends of the slot",
+            "int64",
+            degree=0,
+        ),
+        Variable("peak_drift_ratio", each, "1", "peak drift over the height of the storey", degree=1),
     )
 
 
@@ -174,12 +221,19 @@ def _variables_of_indices() -> tuple[Variable, ...]:
         ("braced_peak_displacement", braced, "m", f"{displacement}, {never}"),
         ("braced_peak_base_shear", braced, "N", f"{shear}, {never}"),
     )
-    return tuple(Variable(name, dims, units, text, on_request=True) for name, dims, units, text in asked)
+    return tuple(
+        Variable(name, dims, units, text, on_request=True, degree=2 if units.startswith("J") else 1)
+        for name, dims, units, text in asked
+    )
+
+
+_INTENSITY_OF_ALL: Final = Variable(INTENSITY, (), "1", "factor on the ground motion")
 
 
 CUBE: Final[Registry] = registry_of(
     motion_variables(("record",)),
     (
+        _INTENSITY_OF_ALL,
         Variable(
             "stiffness_ratio", ("stiffness_ratio",), "1", "stiffness of the brace over that of the frame"
         ),
@@ -196,12 +250,14 @@ CUBE: Final[Registry] = registry_of(
             ("record", "period"),
             "m/s^2",
             "peak absolute acceleration of the floor with a damper that slides without friction",
+            degree=1,
         ),
         Variable(
             "braced_acceleration",
             ("record", "stiffness_ratio", "period"),
             "m/s^2",
             "peak absolute acceleration of the floor with a damper that never slips",
+            degree=1,
         ),
     ),
     _variables_of_indices(),
@@ -216,6 +272,7 @@ _EACH_STOREY: Final = (*BUILDING_DIMS, "storey")
 BUILDING_CUBE: Final[Registry] = registry_of(
     motion_variables(("record",)),
     (
+        _INTENSITY_OF_ALL,
         Variable("building", ("building",), "", "name of the building", TEXT),
         Variable("stiffness_scale", ("stiffness_scale",), "1", "factor on the stiffness of all braces"),
         Variable("slip_scale", ("slip_scale",), "1", "factor on the slip forces of all dampers"),
@@ -246,38 +303,82 @@ BUILDING_CUBE: Final[Registry] = registry_of(
     response_variables(BUILDING_DIMS, ("storey",)),
     (
         Variable(
-            "peak_drift", _EACH_STOREY, "m", "peak displacement of the floor relative to the floor below"
+            "peak_drift",
+            _EACH_STOREY,
+            "m",
+            "peak displacement of the floor relative to the floor below",
+            degree=1,
         ),
-        Variable("peak_storey_shear", _EACH_STOREY, "N", "peak shear force of frame and brace together"),
+        Variable(
+            "peak_storey_shear", _EACH_STOREY, "N", "peak shear force of frame and brace together", degree=1
+        ),
         Variable(
             "peak_brace_displacement",
             _EACH_STOREY,
             "m",
             "peak displacement of the brace relative to the ground",
+            degree=1,
         ),
         Variable(
-            "residual_drift", _EACH_STOREY, "m", "final displacement of the floor relative to the floor below"
+            "residual_drift",
+            _EACH_STOREY,
+            "m",
+            "final displacement of the floor relative to the floor below",
+            degree=1,
         ),
         Variable(
-            "storey_transitions", _EACH_STOREY, "1", "number of changes of phase of the damper", "int64"
+            "storey_transitions",
+            _EACH_STOREY,
+            "1",
+            "number of changes of phase of the damper",
+            "int64",
+            degree=0,
         ),
-        Variable("storey_friction_energy", _EACH_STOREY, "J", "energy dissipated by friction in the damper"),
+        Variable(
+            "storey_friction_energy",
+            _EACH_STOREY,
+            "J",
+            "energy dissipated by friction in the damper",
+            degree=2,
+        ),
         Variable(
             "elastic_acceleration",
             ("record", "building", "storey"),
             "m/s^2",
             "peak absolute acceleration of the floor of the frame without braces",
+            degree=1,
         ),
         Variable(
             "braced_acceleration",
             ("record", "building", "stiffness_scale", "storey"),
             "m/s^2",
             "peak absolute acceleration of the floor with dampers that never slip",
+            degree=1,
         ),
     ),
     device_variables(_EACH_STOREY),
 )
 """The variables of a sweep over buildings, dims (record, building, stiffness_scale, slip_scale, storey)."""
+
+
+def over_intensity(registry: Registry) -> Registry:
+    """Return the registry of a cube that has the dim ``intensity`` after ``record`` too."""
+
+    def along(variable: Variable) -> Variable:
+        if variable.name == INTENSITY:
+            return replace(variable, dims=(INTENSITY,))
+        if variable.degree is None:
+            return variable
+        return replace(variable, dims=(variable.dims[0], INTENSITY, *variable.dims[1:]))
+
+    return registry_of(along(variable) for variable in registry.values())
+
+
+INTENSITY_CUBE: Final = over_intensity(CUBE)
+"""The variables of a sweep over single-storey frames and intensities."""
+
+INTENSITY_BUILDING_CUBE: Final = over_intensity(BUILDING_CUBE)
+"""The variables of a sweep over buildings and intensities."""
 
 _OVER_TIME: Final = ("time",)
 _EACH: Final = ("time", "storey")

@@ -25,6 +25,9 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 
 import fdspec
+from fdspec.figures import plot_sketch
+
+plot_sketch()
 
 # %% [markdown]
 # ## One record, three braces, three frames

@@ -30,6 +30,9 @@ import fdspec
 from fdspec.figures import plot_record
 from fdspec.signals.spectra import elastic_spectra
 
+known = fdspec.load_record("FMR1")
+plot_record(known, elastic_spectra([known], np.linspace(0.02, 3.0, 100), [0.05]))
+
 # %% [markdown]
 # ## A file with two columns
 #

@@ -36,7 +36,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import fdspec
-from fdspec.figures import plot_bare_and_damped, plot_energy, plot_history, plot_hysteresis
+from fdspec.figures import plot_bare_and_damped, plot_energy, plot_history, plot_hysteresis, plot_sketch
 from fdspec.validation import four_storey, kalamata
 
 PATH = None  # "kalamata_ns.txt"
@@ -45,6 +45,7 @@ building = four_storey.building()
 print(building)
 stiffness, brace = 1e-6 * building.storey_stiffness[0], 1e-6 * building.brace_stiffness[0]
 print(f"storeys {stiffness:.2f} MN/m, braces {brace:.2f} MN/m")
+plot_sketch(building)
 
 # %% [markdown]
 # ## Bare frame and damped frame

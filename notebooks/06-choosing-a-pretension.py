@@ -21,7 +21,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import fdspec
-from fdspec.figures import plot_choice_index, plot_choice_records
+from fdspec.figures import plot_choice_index, plot_choice_records, plot_sketch
 from fdspec.measures import index_of, indices, needs_of, residual, slip_load_spectrum
 from fdspec.report import text
 from fdspec.runs.sweep import ON_REQUEST, OUTPUTS
@@ -31,6 +31,7 @@ motions = [fdspec.load_record(name) for name in NAMES]
 frame = fdspec.Building.single_storey(
     period=0.5, stiffness_ratio=4, slip_force=1
 )  # the force is to be chosen
+plot_sketch(frame)
 
 # %% [markdown]
 # ## The answer

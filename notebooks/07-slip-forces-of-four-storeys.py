@@ -22,12 +22,14 @@ import numpy as np
 
 import fdspec
 from fdspec.choice.bench import Bench
+from fdspec.figures import plot_sketch
 from fdspec.validation import four_storey
 
 building = four_storey.building()
 motions = [fdspec.load_record(name) for name in ("FSR1", "FMR1")]
 motions = [fdspec.GroundMotion(m.acceleration[: int(20 / m.dt)], m.dt, name=m.name) for m in motions]
 print(building)
+plot_sketch(building)
 
 # %% [markdown]
 # Twenty seconds of two records keep this page short; a design takes more. The index is the largest peak drift

@@ -64,7 +64,7 @@ def synthetic_history(
     samples: int = 5, storeys: int = 2, transitions: int = 3, record: str = "FSR1", seed: int = 0
 ) -> xr.Dataset:
     """Return a history of random numbers with every variable of the registry."""
-    sizes = {"time": samples, "storey": storeys, "transition": transitions}
+    sizes = {"time": samples, "storey": storeys, "transition": transitions, "link": 2, "state": 2}
     known = {
         "record": np.array(record),
         "time": 0.01 * np.arange(samples),

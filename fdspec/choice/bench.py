@@ -15,8 +15,10 @@ from fdspec.measures.ensemble import statistic_of
 from fdspec.measures.indices import Weights, needs_of, value_of
 from fdspec.model.building import Building, Frame
 from fdspec.model.motion import GroundMotion
+from fdspec.runs import cost
 from fdspec.runs.cube import named
-from fdspec.scheduling.threads import fan_out, plan
+from fdspec.scheduling.task import plan
+from fdspec.scheduling.threads import fan_out
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -47,15 +49,6 @@ BARE: Final = {
 """What an index calls a response of the frame without braces -> that response."""
 
 STRAIN: Final = ("strain_energy_area", "peak_strain_energy")
-
-SECONDS_PER_SAMPLE: Final = 60e-9
-"""Core time of one single-storey history for each sample, roughly; for plans, not for results."""
-
-FRAME_SECONDS_PER_SAMPLE: Final = 0.8e-6
-"""The same of a frame, times storeys to the power 1.5."""
-
-DEVICE_SECONDS_PER_SAMPLE: Final = 10e-6
-"""The same of a building with devices."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,16 +136,16 @@ class Bench:
 
     @staticmethod
     def peaks_of(building: Building, motion: GroundMotion) -> dict[str, FloatArray]:
-        """Peaks (N,) of every storey, by name: `fdspec.kernels.frame.history.STOREY_RESULTS`."""
+        """Peaks (N,) of every storey, by name: `fdspec.kernels.frame.results.STOREY_RESULTS`."""
         if building.has_devices:
             from fdspec.engines.devices import peaks_of as peaks_with_devices
 
             return peaks_with_devices(building, motion)[0]
-        from fdspec.engines.many_storeys import peaks_of
-        from fdspec.kernels.frame.history import STOREY_RESULTS
+        from fdspec.engines.frames import peaks_of_frames
+        from fdspec.kernels.frame.results import STOREY_RESULTS
 
-        by_storey, _ = peaks_of(building.frame, motion, certify=False)
-        return dict(zip(STOREY_RESULTS, by_storey, strict=True))
+        by_storey, _ = peaks_of_frames([building.frame], motion, certify=False)
+        return dict(zip(STOREY_RESULTS, by_storey[0], strict=True))
 
     @cached_property
     def _stuck(self) -> Building:
@@ -251,14 +244,12 @@ def _run(
     count, storeys = slip_force.shape
     if building.has_devices:
         work: Any = partial(_run_devices, building, slip_force, kinetic_slip_force)
-        each = DEVICE_SECONDS_PER_SAMPLE * storeys**1.5
     elif storeys == 1:
         work = partial(_run_storey, np.array(building.storey[:6]), slip_force[:, 0], kinetic_slip_force[:, 0])
-        each = SECONDS_PER_SAMPLE
     else:
         work = partial(_run_frame, building.frame, slip_force, kinetic_slip_force)
-        each = FRAME_SECONDS_PER_SAMPLE * storeys**1.5
-    seconds = [count * motion.n * each * (4.0 if set(STRAIN) & set(needs) else 1.0) for motion in motions]
+    times = count * (cost.STRAIN if set(STRAIN) & set(needs) else 1.0)
+    seconds = [times * cost.seconds_of_history(building, motion.dt, motion.n) for motion in motions]
     tasks = plan(count, seconds, None, "candidates")
     work = partial(work, needs)
     if workers == 0:
@@ -269,7 +260,7 @@ def _run(
             motions,
             tasks,
             each=1,
-            warm=_warm,
+            warm=partial(_warm, building, needs),
             workers=workers,
             scheduler="threads",
             progress=False,
@@ -280,10 +271,18 @@ def _run(
     return dict(zip(RESPONSES, table, strict=True))
 
 
-def _warm() -> None:
-    import fdspec.engines.batch
-    import fdspec.engines.many_storeys
-    import fdspec.engines.strain  # noqa: F401
+def _warm(building: Building, needs: Collection[str]) -> None:
+    if building.n_storeys == 1:
+        import fdspec.engines.batch
+    else:
+        from fdspec.engines.frames import runs_beside_others
+
+        if building.has_devices:
+            import fdspec.engines.devices
+        if not runs_beside_others(building.frame):
+            import fdspec.engines.many_storeys
+    if set(STRAIN) & set(needs):
+        import fdspec.engines.strain  # noqa: F401
 
 
 def _run_storey(
@@ -361,18 +360,18 @@ def _run_frame(
     motion: GroundMotion,
 ) -> FloatArray:
     """Run a frame with some of the rows of slip forces (c, N): (len(RESPONSES), items)."""
-    from fdspec.engines.many_storeys import peaks_of
-    from fdspec.engines.strain import strain_of_frame
-    from fdspec.kernels.frame.history import STOREY_RESULTS, TOTALS
+    from fdspec.engines.frames import peaks_of_frames
+    from fdspec.kernels.frame.results import STOREY_RESULTS, TOTALS
 
+    frames = [_with(frame, slip_force[item], kinetic_slip_force[item]) for item in items]
+    by_storey, totals = peaks_of_frames(frames, motion, certify=False)
     table = np.full((len(RESPONSES), items.size), np.nan)
-    for column, item in enumerate(items):
-        one = _with(frame, slip_force[item], kinetic_slip_force[item])
-        by_storey, totals = peaks_of(one, motion, certify=False)
-        row = dict(zip(STOREY_RESULTS, by_storey, strict=True))
-        total = dict(zip(TOTALS, totals, strict=True))
-        found = _largest(row, total)
+    for column, one in enumerate(frames):
+        row = dict(zip(STOREY_RESULTS, by_storey[column], strict=True))
+        found = _largest(row, dict(zip(TOTALS, totals[column], strict=True)))
         if set(STRAIN) & set(needs):
+            from fdspec.engines.strain import strain_of_frame
+
             found |= dict(zip(STRAIN, strain_of_frame(one, motion)[:2], strict=True))
         table[:, column] = [found.get(name, np.nan) for name in RESPONSES]
     return table

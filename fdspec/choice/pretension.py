@@ -21,10 +21,12 @@ from fdspec.model.building import Building
 from fdspec.model.grid import Grid
 from fdspec.model.motion import GroundMotion
 from fdspec.runs.bounds import SWEEP_HOURS, refuse_long
+from fdspec.runs.cost import PER_SEARCH
 from fdspec.runs.cube import assemble, named
 from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.progress import progress as progress_bar
-from fdspec.scheduling.threads import fan_out, plan
+from fdspec.scheduling.task import plan
+from fdspec.scheduling.threads import fan_out
 
 FloatArray = NDArray[np.float64]
 
@@ -32,9 +34,6 @@ RESPONSES: Final = ("peak_acceleration", "peak_displacement", "peak_base_shear",
 """What is told of the history at the best pretension."""
 
 THERE: Final = (*RESPONSES, "bare_acceleration", "braced_acceleration")
-
-SEARCH_SECONDS_PER_SAMPLE: Final = 20e-6
-"""Core time of one search for each sample of its record, roughly; for plans, not for results."""
 
 
 @dataclass(frozen=True)
@@ -234,7 +233,7 @@ def _of_records(
 ) -> NDArray[np.object_]:
     """Search each column under each record by itself: Found (records, columns)."""
     n_sr, _, n_t = grid.shape
-    seconds = [motion.n * n_sr * n_t * SEARCH_SECONDS_PER_SAMPLE for motion in motions]
+    seconds = [motion.n * n_sr * n_t * PER_SEARCH for motion in motions]
     refuse_long(sum(seconds), SWEEP_HOURS, f"a search for {n_sr * n_t:.4g} frames")
     tasks = plan(n_sr * n_t, seconds, None, "columns")
     parts = fan_out(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from fdspec.cli.as_json import echo_json, json_option
 from fdspec.cli.echo import echo
 from fdspec.cli.table import BAD, GOOD, grouped, styled
 from fdspec.errors import FdspecError
@@ -15,17 +16,23 @@ COLOURS = {True: GOOD, False: BAD, None: None}
 
 @click.command("check")
 @click.argument("cube")
+@json_option
 @click.option("--all", "everything", is_flag=True, help="List every history that did not end well.")
-def check_cube(cube: str, everything: bool) -> None:
+def check_cube(cube: str, as_json: bool, everything: bool) -> None:
     """Verify a cube, a netCDF file or a Zarr store: schema, CF, records, checksums, statuses, energy.
 
     Exit code 1 when something is wrong with it.
     """
-    from fdspec.cli.summary import LISTED
+    from fdspec.cli.outcome import LISTED
     from fdspec.measures.statuses import failed_cells
     from fdspec.store import open as open_cube
     from fdspec.store.check import check
 
+    if as_json:
+        findings = list(check(cube))
+        echo_json({"cube": cube, "findings": [finding._asdict() for finding in findings]})
+        _fail(cube, [finding.what for finding in findings if finding.passed is False])
+        return
     failed = []
     for finding in check(cube):
         word = styled(f"{WORDS[finding.passed]:6s}", COLOURS[finding.passed])
@@ -40,5 +47,9 @@ def check_cube(cube: str, everything: bool) -> None:
                         echo(f"        {cell}")
             if not everything and number > LISTED:
                 echo(f"        and {grouped(number - LISTED)} more; --all lists them")
+    _fail(cube, failed)
+
+
+def _fail(cube: str, failed: list[str]) -> None:
     if failed:
         raise FdspecError(f"{cube}: {', '.join(failed)} failed")

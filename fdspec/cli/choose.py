@@ -6,9 +6,12 @@ from typing import TYPE_CHECKING
 
 import click
 
+from fdspec.cli.as_json import echo_json, json_option, of_dataset
+from fdspec.cli.device_options import device_options, given
 from fdspec.cli.echo import echo
+from fdspec.cli.limits import levels_of, limits_of, told
 from fdspec.cli.output import force_option, free
-from fdspec.cli.record_options import file_options, named_records
+from fdspec.cli.record_options import RecordsOption, file_options, named_records
 
 if TYPE_CHECKING:
     from fdspec.model.building import Building
@@ -20,6 +23,7 @@ PAGES = (".html", ".htm")
 @click.option(
     "--record",
     "records",
+    cls=RecordsOption,
     multiple=True,
     metavar="NAME|FILE",
     help="A record of the catalogue, or a file; repeat it.  [default: the study's nine]",
@@ -40,6 +44,7 @@ PAGES = (".html", ".htm")
 @click.option("--floor-mass", type=float, default=20e3, show_default=True, metavar="KG")
 @click.option("--brace-mass", type=float, default=50.0, show_default=True, metavar="KG")
 @click.option("--damping-ratio", type=float, default=0.05, show_default=True, metavar="X")
+@device_options
 @click.option("--friction-coefficient", type=float, default=0.5, show_default=True, metavar="X")
 @click.option(
     "--kinetic-friction-coefficient", type=float, metavar="X", help="[default: the friction coefficient]"
@@ -85,6 +90,22 @@ PAGES = (".html", ".htm")
 @click.option(
     "--upper", type=float, default=1.2, show_default=True, metavar="X", help="The same of the largest."
 )
+@click.option(
+    "--limit",
+    "limits",
+    multiple=True,
+    metavar="NAME=X",
+    help="Find the least slip force that meets this instead: acceleration=0.5g, drift=20mm, "
+    "drift_ratio=0.01, base_shear=300kN, residual_drift=2mm, slip_travel=1; repeat it. Exit code 1 where "
+    "none meets all.",
+)
+@click.option(
+    "--level",
+    "levels",
+    multiple=True,
+    metavar="X",
+    help="Factor on the records at which the limits hold, DE (1) or MCE (1.5); repeat it.  [default: 1]",
+)
 @click.option("--seed", type=int, default=0, show_default=True, metavar="N", help="Of a free distribution.")
 @click.option("--workers", type=int, metavar="N", help="Threads.  [default: one a core]")
 @click.option("--html", metavar="FILE.html", help="Write the report as one page with pictures too.")
@@ -92,6 +113,7 @@ PAGES = (".html", ".htm")
 @click.option("--project", default="", metavar="TEXT", help="Project that the page names.")
 @click.option("--author", default="", metavar="TEXT", help="Author that the page names.")
 @click.option("-o", "--output", metavar="FILE.nc", help="Write every number of it, netCDF.")
+@json_option
 @force_option
 def choose(
     records: tuple[str, ...],
@@ -113,6 +135,8 @@ def choose(
     distribution: str,
     lower: float,
     upper: float,
+    limits: tuple[str, ...],
+    levels: tuple[str, ...],
     seed: int,
     workers: int | None,
     html: str | None,
@@ -120,7 +144,9 @@ def choose(
     project: str,
     author: str,
     output: str | None,
+    as_json: bool,
     force: bool,
+    **devices: float | None,
 ) -> None:
     """Recommend the pretension of a friction damper for one frame or building and a set of records.
 
@@ -136,10 +162,17 @@ def choose(
     if html is None and (title or project or author):
         raise click.UsageError("--title, --project and --author are of the page; give --html.")
     cube_path = None if output is None else free(output, force=force)
+    if limits and (html or output or distribution == "free"):
+        raise click.UsageError(
+            "--limit prints its answer; it goes without --html, -o and --distribution free."
+        )
+    if levels and not limits:
+        raise click.UsageError("--level says where limits hold; give --limit.")
+    wanted, factors = limits_of(limits), levels_of(levels)
     click_context = click.get_current_context()
     if building is not None:
         frame_options = ("period", "stiffness_ratio", "floor_mass", "brace_mass", "damping_ratio")
-        for name in (*frame_options, "kinetic_friction_coefficient"):
+        for name in (*frame_options, "kinetic_friction_coefficient", *devices):
             if click_context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
                 option = "--" + name.replace("_", "-")
                 raise click.UsageError(
@@ -163,10 +196,29 @@ def choose(
             floor_mass=floor_mass,
             brace_mass=brace_mass,
             damping_ratio=damping_ratio,
+            **given(devices),  # type: ignore[arg-type]
         )
     )
     named = named_records(records or STUDY_RECORDS, units, dt, channel)
     motions = tuple(find_record(name, scaled=not raw) for name in named)
+    if wanted:
+        from fdspec.choice.targets import meet
+
+        target = meet(
+            chosen,
+            motions,
+            wanted,
+            levels=factors,
+            statistic=statistic,
+            distribution=distribution,
+            lower=lower,
+            upper=upper,
+            workers=workers,
+        )
+        echo(told(target, friction_coefficient * normal_force_factor))
+        if not target.met:
+            click_context.exit(1)
+        return
     choice = compute(
         chosen,
         motions,
@@ -183,12 +235,14 @@ def choose(
     )
     from fdspec.cli.table import text_width
 
-    echo(text(choice, width=text_width()))
+    if not as_json:
+        echo(text(choice, width=text_width()))
+    files: list[str] = []
     if cube_path is not None:
         from fdspec.store import save
 
         save(choice, cube_path, overwrite=force)
-        echo(str(cube_path))
+        files.append(str(cube_path))
     if page_path is not None:
         from fdspec.report.page import page
         from fdspec.store.replacing import replacing
@@ -196,7 +250,11 @@ def choose(
         with replacing(page_path, suffixes=PAGES) as part:
             written = page(choice, chosen, motions, title=title, project=project, author=author)
             part.write_text(written, encoding="utf-8")
-        echo(str(page_path))
+        files.append(str(page_path))
+    if as_json:
+        echo_json({"files": files, **of_dataset(choice)})
+    elif files:
+        echo("\n".join(files))
 
 
 def _index(given: str) -> str | dict[str, float]:

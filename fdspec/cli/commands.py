@@ -2,15 +2,18 @@
 
 import click
 
-from fdspec import __version__
 from fdspec.cli.lazy import LazyGroup
+from fdspec.version import __version__
 
 COMMANDS = {
     "sweep": (
         "fdspec.cli.sweep:sweep",
         "Compute the cube of a study; without a file, the study of the nine records.",
     ),
-    "simulate": ("fdspec.cli.simulate:simulate", "Compute the history of one frame under one record."),
+    "simulate": (
+        "fdspec.cli.simulate:simulate",
+        "Compute the history of one frame or building under one record.",
+    ),
     "choose": ("fdspec.cli.choose:choose", "Recommend a pretension, with its gain and its bounds."),
     "spectra": ("fdspec.cli.spectra:spectra", "Compute elastic and inelastic response spectra of records."),
     "fragility": (
@@ -18,7 +21,7 @@ COMMANDS = {
         "Fit the probability that a demand exceeds its limit, and its annual rate.",
     ),
     "records": ("fdspec.cli.records:records", "List, show, check, convert and draw ground motions."),
-    "figures": ("fdspec.cli.figures:figures", "Draw the study's figures."),
+    "figures": ("fdspec.cli.figures:figures", "Draw the study's figures, or the profiles of buildings."),
     "claims": ("fdspec.cli.claims:claims", "Put the study's conclusions to a cube."),
     "verify": ("fdspec.cli.verify:verify", "Verify this installation: known answers beside computed ones."),
     "explore": ("fdspec.cli.explore:explore", "Show a cube in the browser, with histories at a click."),
@@ -26,6 +29,8 @@ COMMANDS = {
         "fdspec.cli.export:export",
         "Write a cube for other programs (netCDF, CSV) or as a page (HTML).",
     ),
+    "summary": ("fdspec.cli.summary:summary", "Sum up a cube over its records: median, percentiles, worst."),
+    "combine": ("fdspec.cli.combine:combine", "Join cubes along records, or another dim."),
     "check": ("fdspec.cli.check:check_cube", "Verify a cube: schema, CF, checksums, statuses, energy."),
 }
 

@@ -2,14 +2,28 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 import click
 
 from fdspec.printable import printable
 
+MARKS: Final = {"green": "\ue000", "yellow": "\ue001", "red": "\ue002"}
+"""A letter of no language that stands before what is to be coloured, until the text has been made safe."""
+
+END: Final = "\ue003"
+
 
 def echo(text: object = "", *, err: bool = False, nl: bool = True) -> None:
     """Print a text of any origin."""
-    click.echo(printable(str(text)), err=err, nl=nl)  # noqa: TID251 (the one place)
+    click.echo(coloured(printable(str(text))), err=err, nl=nl)  # noqa: TID251 (the one place)
+
+
+def coloured(text: str) -> str:
+    """Put colours in the place of their marks; click takes them out again where there is no terminal."""
+    for colour, mark in MARKS.items():
+        text = text.replace(mark, click.style("", fg=colour, reset=False))
+    return text.replace(END, click.style("", reset=True))
 
 
 def status(text: str) -> None:

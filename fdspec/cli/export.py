@@ -8,6 +8,7 @@ import click
 
 from fdspec.cli.echo import echo
 from fdspec.cli.output import force_option, free
+from fdspec.cli.select_option import selected
 from fdspec.errors import InvalidInput
 
 PAGES = (".html", ".htm")
@@ -23,8 +24,29 @@ PAGES = (".html", ".htm")
     help="Write a page for the browser, all records in it unless --record names one; CUBE.html without -o.",
 )
 @click.option("--record", metavar="NAME", help="The record; may be left out where the cube has one.")
+@click.option(
+    "--format",
+    "form",
+    type=click.Choice(["pelicun"]),
+    help="pelicun: the demands of a building, a row for each record, as Pelicun reads them.",
+)
+@click.option(
+    "--at", "chosen", multiple=True, metavar="DIM=VALUE", help="Select along a dim of the cube; repeat it."
+)
+@click.option(
+    "--storey-height", type=float, metavar="M", help="Of every storey, m, for Pelicun's drift ratios."
+)
 @force_option
-def export(cube: str, output: str | None, page: bool, record: str | None, force: bool) -> None:
+def export(
+    cube: str,
+    output: str | None,
+    page: bool,
+    record: str | None,
+    form: str | None,
+    chosen: tuple[str, ...],
+    storey_height: float | None,
+    force: bool,
+) -> None:
     """Write one record of a cube for other programs, or a cube as a page.
 
     FILE.nc holds it over stiffness ratio, pretension and period, for ParaView, CDO and others that take three
@@ -34,9 +56,14 @@ def export(cube: str, output: str | None, page: bool, record: str | None, force:
     """
     from fdspec import store
     from fdspec.store.history_csv import CSV_SUFFIXES, transitions_file
+    from fdspec.store.pelicun import write_pelicun
     from fdspec.store.suitable import require_sound
 
     beside: list[Path] = []
+    if storey_height is not None and form is None:
+        raise click.UsageError("--storey-height is for --format pelicun.")
+    if page and (form or chosen):
+        raise click.UsageError("--html goes without --format and --at.")
     if output is not None and Path(output).suffix.lower() in PAGES:
         page = True
     if page:
@@ -48,6 +75,12 @@ def export(cube: str, output: str | None, page: bool, record: str | None, force:
         path = free(output, force=force, suffixes=(".nc", ".csv", *PAGES))
         opened = store.open(cube)
         require_sound(opened, cube)
+        for choice in chosen:
+            opened = selected(opened, choice)
+        if form == "pelicun":
+            write_pelicun(opened, path, storey_height=storey_height)
+            echo(str(path))
+            return
         if path.suffix.lower() in CSV_SUFFIXES and "transition" in opened.dims:
             beside = [free(transitions_file(path), force=force, suffixes=CSV_SUFFIXES)]
         store.export(opened, path, record=record)

@@ -1,4 +1,4 @@
-"""`fdspec figures`: the study's figures from a cube."""
+"""`fdspec figures`: the study's figures from a cube, or the profiles of a cube of buildings."""
 
 from __future__ import annotations
 
@@ -13,8 +13,9 @@ from fdspec.cli.output import force_option, free, made_folder, write_picture
 from fdspec.errors import InvalidInput
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    import xarray as xr
 
+    from fdspec.figures.page import Figure
     from fdspec.report.study_figures import Picture
 
 KINDS: Final = ("png", "pdf", "svg")
@@ -34,7 +35,8 @@ SHEET_DPI: Final = 200
 @click.option(
     "--only",
     metavar="LIST",
-    help="The study's numbers, such as 10,11, or names of records it does not know.  [default: all]",
+    help="The study's numbers, such as 10,11, or names of records it does not know; of a cube of buildings, "
+    "their names.  [default: all]",
 )
 @click.option(
     "--format",
@@ -59,6 +61,10 @@ SHEET_DPI: Final = 200
     type=click.Choice(["maps", "surfaces"]),
     help="With --width, what to draw of each record.  [default: maps]",
 )
+@click.option(
+    "--slip-scale", type=float, metavar="X", help="Of buildings: the factor shown.  [default: nearest to 1]"
+)
+@click.option("--stiffness-scale", type=float, metavar="X", help="The same on the stiffness of braces.")
 @click.option("--author", default="", metavar="TEXT", help="Author that the files name.")
 @click.option("--list", "listed", is_flag=True, help="Say which figures this cube gives, and stop.")
 @force_option
@@ -70,17 +76,22 @@ def figures(
     study_file: str | None,
     width: str | None,
     panels: str | None,
+    slip_scale: float | None,
+    stiffness_scale: float | None,
     author: str,
     listed: bool,
     force: bool,
 ) -> None:
-    """Draw the study's figures: 4 and 6 (validation), 8 and 9 (records), 10 to 18 (acceleration).
+    """Draw the study's figures: 4 and 6 (validation), 7 (the damper), 8 and 9 (records), 10 to 18 (spectra).
 
     Each of 10 to 18 shows one record, a panel a stiffness ratio: the surface over pretension and period, and
     beside it a map with the best pretension. Beyond the study, `ensemble` shows all records together, `chart`
     the response over slip force in units of floor mass and ground peak. Captions name the records really
     used. All figures together come with a contact sheet and the captions as captions.md. Prints the name of
     each picture.
+
+    Of a cube of buildings there is a picture for each building: drift, acceleration, slip and force over the
+    height, each record grey, median, and 16 to 84 % of the records.
     """
     from fdspec import store
     from fdspec.figures import encode, plot_contact_sheet
@@ -93,6 +104,24 @@ def figures(
     if panels is not None and width is None:
         raise click.UsageError("--panels goes with --width.")
     dataset = store.open(cube)
+    scales = {"slip_scale": slip_scale, "stiffness_scale": stiffness_scale}
+    if "building" in dataset.dims:
+        if study_file or panels:
+            raise click.UsageError(
+                "--study and --panels are of the study's figures; the cube is of buildings."
+            )
+        names = [str(name) for name in dataset["building"].values]
+        wanted = _numbers(only) or names
+        for name in wanted:
+            if name not in names:
+                raise InvalidInput(f"--only: {cube} has no building {name!r}; it has {', '.join(names)}")
+        if listed:
+            echo("\n".join(wanted))
+            return
+        _profiles(dataset, wanted, scales, made_folder(output), kinds, millimetres, author, force)
+        return
+    if any(value is not None for value in scales.values()):
+        raise click.UsageError("--slip-scale and --stiffness-scale are of a cube of buildings.")
     require_cube(dataset, cube, "the study's figures")
     given = Study.read(study_file).motions() if study_file else ()
     pictures = chosen(study_pictures(dataset, given), _numbers(only))
@@ -131,6 +160,47 @@ def figures(
             captions.write_text(_page(pictures), encoding="utf-8")
             done(1)
     echo("\n".join(str(path) for path in [*(path for files in paths for path in files), *sheet]))
+
+
+def _profiles(
+    cube: xr.Dataset,
+    names: Sequence[str],
+    scales: dict[str, float | None],
+    folder: Path,
+    kinds: Sequence[str],
+    millimetres: float | None,
+    author: str,
+    force: bool,
+) -> None:
+    """Draw a picture for each building, and write the captions."""
+    from fdspec.figures import design_of, plot_profiles, profiles_caption
+    from fdspec.figures.page import at_width
+    from fdspec.store.suitable import require_sound
+
+    require_sound(cube, str(folder))
+    kinds = tuple(dict.fromkeys(kinds)) or ("png", "pdf")
+    stems = {name: f"profiles-{_file_name(name)}" for name in names}
+    if len(set(stems.values())) < len(stems):
+        stems = {name: f"profiles-{number}-{_file_name(name)}" for number, name in enumerate(names, 1)}
+    paths = {name: [folder / f"{stem}.{kind}" for kind in kinds] for name, stem in stems.items()}
+    captions = folder / CAPTIONS
+    for path in [*(path for files in paths.values() for path in files), captions]:
+        free(path, force=force, suffixes=(path.suffix,))
+    told = []
+    for name, files in paths.items():
+        figure = plot_profiles(cube, name, **scales)
+        if millimetres is not None:
+            figure.suptitle("")
+            at_width(figure, millimetres)
+        _write(_encoded(figure, kinds, author), files)
+        told.append(f"**{stems[name]}**: {profiles_caption(design_of(cube, name, **scales))}\n")
+    captions.write_text("\n".join(told), encoding="utf-8")
+    echo("\n".join(str(path) for files in paths.values() for path in files))
+
+
+def _file_name(name: str) -> str:
+    """Return what of a building's name can stand in a file's."""
+    return "".join(letter if letter.isalnum() or letter in "-_." else "-" for letter in name)[:100]
 
 
 def _encoded(figure: Figure, kinds: Sequence[str], author: str) -> dict[str, bytes]:

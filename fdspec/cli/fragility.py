@@ -9,6 +9,7 @@ import click
 
 from fdspec.cli.echo import echo
 from fdspec.cli.output import PICTURES, force_option, free, save_picture
+from fdspec.cli.select_option import selected
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -53,7 +54,7 @@ def fragility(
     curve = None if hazard is None else read_hazard(hazard)
     opened = store.open(cube)
     for choice in chosen:
-        opened = _select(opened, choice)
+        opened = selected(opened, choice)
     fit = fit_of(opened, demand=demand, limit=limit, measure=measure)
     shown = fit[["median", "dispersion", "median_error", "dispersion_error"]]
     rates = None if curve is None else risk(fit, curve)
@@ -73,28 +74,6 @@ def fragility(
     else:
         _write(fit, table, path)
     echo(f"{path}")
-
-
-def _select(opened: xr.Dataset, choice: str) -> xr.Dataset:
-    """Select along a dim by its value, as the user wrote it."""
-    import numpy as np
-
-    dim, _, text = choice.partition("=")
-    if dim not in opened.dims or not text:
-        known = ", ".join(map(str, opened.dims))
-        raise click.UsageError(f"--at {choice}: give DIM=VALUE with a dim among {known}")
-    values = opened[dim].values
-    if values.dtype.kind in "OU":
-        match = [k for k, value in enumerate(values) if str(value) == text]
-    else:
-        try:
-            number = float(text)
-        except ValueError:
-            raise click.UsageError(f"--at {choice}: {text!r} is no number") from None
-        match = np.flatnonzero(np.isclose(values, number, rtol=1e-9, atol=0.0)).tolist()
-    if not match:
-        raise click.UsageError(f"--at {choice}: the cube has {', '.join(map(str, values[:20]))}")
-    return opened.isel({dim: match[0]})
 
 
 def _write(fit: xr.Dataset, table: Any, path: Path) -> None:

@@ -11,7 +11,7 @@ import click
 from fdspec.errors import StoreError
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from fdspec.figures.page import Figure
 
 P = ParamSpec("P")
 R = TypeVar("R")

@@ -8,7 +8,7 @@ import click
 
 from fdspec.cli.echo import echo
 from fdspec.cli.output import force_option, free
-from fdspec.cli.record_options import file_options, named_record
+from fdspec.cli.record_options import AboutFile, reading_options, record_about
 
 if TYPE_CHECKING:
     from fdspec.model.motion import GroundMotion
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     metavar="FILE",
     help="What to write: .at2 is PEER's layout in g, .txt two columns, s and m/s2.",
 )
-@file_options
+@reading_options
 @click.option("--raw", is_flag=True, help="A catalogue's record as recorded, not scaled to the study's PGA.")
 @click.option("--trim", type=float, nargs=2, metavar="S S", help="Keep from one time to another, s.")
 @click.option(
@@ -44,9 +44,7 @@ if TYPE_CHECKING:
 def convert_record(
     record: str,
     output: str,
-    units: str | None,
-    dt: float | None,
-    channel: str | None,
+    about: AboutFile,
     raw: bool,
     trim: tuple[float, float] | None,
     trim_arias: tuple[float, float] | None,
@@ -76,7 +74,7 @@ def convert_record(
     from fdspec.signals import processing
     from fdspec.units import G
 
-    named = named_record(record, units, dt, channel)
+    named = record_about(record, about)
     motion = find_record(named, scaled=not raw)
     if trim is not None:
         motion = processing.trimmed(motion, *trim)
@@ -103,5 +101,5 @@ def convert_record(
 def _written(motion: GroundMotion, path: str) -> str:
     from fdspec.units import G
 
-    about = f"{motion.n} samples, dt {motion.dt:g} s, PGA {motion.pga / G:.4g} g"
-    return "\n".join([f"{path}: {about}", *(f"  {step}" for step in motion.history)])
+    numbers = f"{motion.n} samples, dt {motion.dt:g} s, PGA {motion.pga / G:.4g} g"
+    return "\n".join([f"{path}: {numbers}", *(f"  {step}" for step in motion.history)])

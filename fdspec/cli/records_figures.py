@@ -8,7 +8,7 @@ import click
 
 from fdspec.cli.echo import echo
 from fdspec.cli.output import force_option, free, made_folder, save_picture
-from fdspec.cli.record_options import file_options, named_records
+from fdspec.cli.record_options import RecordsOption, file_options, named_records
 
 DAMPING: Final = 0.05
 """Of the frames in the study; it does not print that of its spectra."""
@@ -21,6 +21,7 @@ DAMPING: Final = 0.05
 @click.option(
     "--record",
     "records",
+    cls=RecordsOption,
     multiple=True,
     metavar="NAME|FILE",
     help="A record of the catalogue or a file; repeat it.  [default: the study's nine]",

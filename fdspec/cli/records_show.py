@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import json
+import warnings
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 import click
 
 from fdspec.cli.echo import echo
 from fdspec.cli.output import PICTURES, force_option, free, save_picture
-from fdspec.cli.record_options import file_options, named_record
+from fdspec.cli.record_options import AboutFile, reading_options, record_about
+from fdspec.errors import RecordError
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from fdspec.model.motion import GroundMotion
     from fdspec.records import CatalogueEntry
 
@@ -23,7 +24,7 @@ DAMPING: Final = (0.02, 0.05, 0.10)
 
 @click.command("show")
 @click.argument("record", metavar="NAME|FILE")
-@file_options
+@reading_options
 @click.option("--raw", is_flag=True, help="As recorded, not scaled to the study's PGA.")
 @click.option("--json", "as_json", is_flag=True, help="As JSON.")
 @click.option(
@@ -34,9 +35,7 @@ DAMPING: Final = (0.02, 0.05, 0.10)
 @force_option
 def show_record(
     record: str,
-    units: str | None,
-    dt: float | None,
-    channel: str | None,
+    about: AboutFile,
     raw: bool,
     as_json: bool,
     figure: str | None,
@@ -44,18 +43,22 @@ def show_record(
 ) -> None:
     """Show what is known of one record, of the catalogue or in a file: origin, numbers, what was done to it.
 
+    Of a file it says too what each column and each statement of the header was taken for, also when the
+    file is refused.
+
     PGV and PGD are integrated from rest without correction; the significant duration is from 5 to 95 % of the
     Arias intensity.
     """
     picture = None if figure is None else free(figure, force=force, suffixes=PICTURES)
 
     from fdspec.records import catalogue
-    from fdspec.runs.study import find_record
+    from fdspec.runs.study import find_record, is_catalogued
     from fdspec.units import G
 
-    named = named_record(record, units, dt, channel)
+    named = record_about(record, about)
+    taken = [] if is_catalogued(record) or not Path(record).is_file() else _taken(record, about, as_json)
     motion = find_record(named, scaled=not raw)
-    about: dict[str, object] = {
+    shown: dict[str, object] = {
         "name": motion.name,
         "event": motion.event,
         "station": motion.station,
@@ -64,9 +67,9 @@ def show_record(
     }
     for entry in catalogue():
         if isinstance(named, str) and named.upper() == entry.name:
-            about |= _catalogued(entry)
-    about |= {"pga_g": motion.pga / G, **_intensity(motion)}
-    about |= {
+            shown |= _catalogued(entry)
+    shown |= {"pga_g": motion.pga / G, **_intensity(motion)}
+    shown |= {
         "scale_factor": motion.scale_factor,
         "dt_s": motion.dt,
         "samples": motion.n,
@@ -74,10 +77,12 @@ def show_record(
         "history": list(motion.history),
         "checksum": motion.checksum,
     }
+    if taken:
+        shown["taken_for"] = taken
     if picture is not None:
         _draw(motion, picture)
-        about["figure"] = str(picture)
-    echo(json.dumps(about, indent=2) if as_json else _lines(about))
+        shown["figure"] = str(picture)
+    echo(json.dumps(shown, indent=2) if as_json else _lines(shown))
 
 
 def _catalogued(entry: CatalogueEntry) -> dict[str, object]:
@@ -125,10 +130,29 @@ def _draw(motion: GroundMotion, path: Path) -> None:
     save_picture(plot_record(motion, drawn_spectra([motion], DAMPING)), path)
 
 
-def _lines(about: dict[str, object]) -> str:
-    width = max(map(len, about))
+def _taken(record: str, about: AboutFile, as_json: bool) -> list[str]:
+    """Return what each column and header of a file is taken for; of a refused one, print what was."""
+    from fdspec.records.reading import read_file
+
+    options = {key: value for key, value in about.given.items() if key not in {"channel", "name"}}
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", UserWarning)  # they are given when the motion is read
+            reading = read_file(record, **options)
+    except RecordError as error:
+        notes = getattr(error, "__notes__", [])
+        if notes and not as_json:
+            echo(_lines({"taken_for": notes}))
+        raise
+    if about.channel is None and len(reading.motions) > 1 and not as_json:
+        echo(_lines({"taken_for": list(reading.taken)}))
+    return list(reading.taken)
+
+
+def _lines(shown: dict[str, object]) -> str:
+    width = max(map(len, shown))
     told = []
-    for key, value in about.items():
+    for key, value in shown.items():
         lines = value if isinstance(value, list) else [f"{value:.6g}" if isinstance(value, float) else value]
         told += [
             f"{head:<{width}}  {line}".rstrip()

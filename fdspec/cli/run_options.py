@@ -15,7 +15,7 @@ from fdspec.errors import BusyError, ClusterError, DiskError, FdspecError
 from fdspec.printable import printable
 
 if TYPE_CHECKING:
-    from distributed import Client
+    from fdspec.scheduling.task import Client
 
 P = ParamSpec("P")
 R = TypeVar("R")

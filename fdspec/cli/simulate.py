@@ -1,17 +1,37 @@
-"""`fdspec simulate`: the history of one frame under one record."""
+"""`fdspec simulate`: the history of one frame, or of a building from its file, under one record."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import click
+import numpy as np
 
+from fdspec.cli.as_json import echo_json, json_option, of_dataset
+from fdspec.cli.device_options import DEVICES, device_options, given
 from fdspec.cli.echo import echo
 from fdspec.cli.output import PICTURES, force_option, free, save_picture
 from fdspec.cli.record_options import file_options, named_record
+from fdspec.cli.storey_columns import STOREY_COLUMNS
+from fdspec.cli.table import table
 
 if TYPE_CHECKING:
     import xarray as xr
+
+
+FRAME: Final = (
+    "period",
+    "stiffness_ratio",
+    "slip_force",
+    "pretension",
+    "friction_coefficient",
+    "kinetic_slip_force",
+    "floor_mass",
+    "brace_mass",
+    "damping_ratio",
+    "brace_damping_ratio",
+)
+"""Parameters of the options that tell a single-storey frame."""
 
 
 @click.command()
@@ -20,8 +40,13 @@ if TYPE_CHECKING:
 @click.option(
     "--raw", is_flag=True, help="Leave a catalogue's record as recorded, not scaled to the study's PGA."
 )
-@click.option("--period", type=float, required=True, metavar="S", help="Of the frame without its brace, s.")
-@click.option("--stiffness-ratio", type=float, required=True, metavar="X", help="Brace over frame stiffness.")
+@click.option(
+    "--building",
+    metavar="B.toml",
+    help="A building file with its slip forces, in place of the single-storey frame of the options below.",
+)
+@click.option("--period", type=float, metavar="S", help="Of the frame without its brace, s.")
+@click.option("--stiffness-ratio", type=float, metavar="X", help="Brace over frame stiffness.")
 @click.option(
     "--slip-force", type=float, metavar="N", help="Force at which the damper slips, N; inf never slips."
 )
@@ -44,6 +69,7 @@ if TYPE_CHECKING:
 @click.option(
     "--brace-damping-ratio", type=float, default=0.0, show_default=True, metavar="X", help="Of the brace."
 )
+@device_options
 @click.option(
     "--free-vibration",
     type=float,
@@ -59,6 +85,10 @@ if TYPE_CHECKING:
     "-o", "--output", default="history.nc", show_default=True, metavar="FILE", help="The history, netCDF."
 )
 @click.option("--figure", metavar="FILE", help="A picture of it too: .png, .pdf or .svg.")
+@click.option(
+    "--storey", type=int, default=1, show_default=True, metavar="N", help="The storey in the picture."
+)
+@json_option
 @force_option
 def simulate(
     record: str,
@@ -66,8 +96,9 @@ def simulate(
     dt: float | None,
     channel: str | None,
     raw: bool,
-    period: float,
-    stiffness_ratio: float,
+    building: str | None,
+    period: float | None,
+    stiffness_ratio: float | None,
     slip_force: float | None,
     pretension: float | None,
     friction_coefficient: float | None,
@@ -80,15 +111,23 @@ def simulate(
     dt_out: float | None,
     output: str,
     figure: str | None,
+    storey: int,
+    as_json: bool,
     force: bool,
+    **devices: float | None,
 ) -> None:
-    """Compute the history of one single-storey frame under one record: motion, friction, phases, energies.
+    """Compute the history of one frame or building under one record: motion, friction, phases, energies.
 
     \b
-    Example:
+    Examples:
         fdspec simulate --record FSR1 --period 0.5 --stiffness-ratio 4 --slip-force 50e3 --figure history.png
+        fdspec simulate --record FSR1 --building six.toml
     """
-    if (slip_force is None) == (pretension is None):
+    if building is not None:
+        _refuse_frame_options(building)
+    elif period is None or stiffness_ratio is None:
+        raise click.UsageError("Give --period and --stiffness-ratio of a frame, or --building B.toml.")
+    elif (slip_force is None) == (pretension is None):
         raise click.UsageError("Give either --slip-force or --pretension.")
     if slip_force is not None and friction_coefficient is not None:
         raise click.UsageError("--friction-coefficient goes with --pretension, not with --slip-force.")
@@ -97,21 +136,27 @@ def simulate(
         paths.append(free(figure, force=force, suffixes=PICTURES))
 
     from fdspec.model.building import Building
+    from fdspec.model.building_file import read_building
     from fdspec.runs.simulate import simulate as compute
     from fdspec.runs.study import find_record
     from fdspec.store import save
 
     if pretension is not None:
         slip_force = (0.5 if friction_coefficient is None else friction_coefficient) * pretension
-    frame = Building.single_storey(
-        period=period,
-        stiffness_ratio=stiffness_ratio,
-        slip_force=slip_force,  # type: ignore[arg-type]
-        floor_mass=floor_mass,
-        brace_mass=brace_mass,
-        damping_ratio=damping_ratio,
-        kinetic_slip_force=kinetic_slip_force,
-        brace_damping_ratio=brace_damping_ratio,
+    frame = (
+        read_building(building, design=True)
+        if building is not None
+        else Building.single_storey(
+            period=period,  # type: ignore[arg-type]
+            stiffness_ratio=stiffness_ratio,  # type: ignore[arg-type]
+            slip_force=slip_force,  # type: ignore[arg-type]
+            floor_mass=floor_mass,
+            brace_mass=brace_mass,
+            damping_ratio=damping_ratio,
+            kinetic_slip_force=kinetic_slip_force,
+            brace_damping_ratio=brace_damping_ratio,
+            **given(devices),  # type: ignore[arg-type]
+        )
     )
     named = named_record(record, units, dt, channel)
     motion = find_record(named, scaled=not raw)
@@ -120,27 +165,79 @@ def simulate(
     if figure is not None:
         from fdspec.figures import plot_history
 
-        save_picture(plot_history(history), paths[1])
+        save_picture(plot_history(history, storey=storey), paths[1])
+    if as_json:
+        echo_json({"files": [str(path) for path in paths], **of_dataset(_peaks(history))})
+        return
+    if building is not None:
+        echo(_storeys(history))
+        echo()
     echo(_results(history))
     echo("\n".join(map(str, paths)))
+
+
+def _refuse_frame_options(building: str) -> None:
+    """Raise UsageError for an option that tells what the building file tells."""
+    context = click.get_current_context()
+    for name in (*FRAME, *DEVICES):
+        if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
+            option = "--" + name.replace("_", "-")
+            raise click.UsageError(f"{option} is of the single-storey frame; {building} tells the building.")
+
+
+def _peaks(history: xr.Dataset) -> xr.Dataset:
+    """Return what has no course in time, save text about the record."""
+    kept = [name for name, array in history.data_vars.items() if not {"time", "transition"} & set(array.dims)]
+    told = history[kept]
+    return told.drop_vars(
+        [name for name, array in told.coords.items() if {"time", "transition"} & set(array.dims)]
+    )
+
+
+def _storeys(history: xr.Dataset) -> str:
+    """Return a table of the storeys, the highest first as a building stands."""
+    shown = {name: column for name, column in STOREY_COLUMNS.items() if name in history}
+    values = {
+        name: history[name].isel(time=-1) if "time" in history[name].dims else history[name] for name in shown
+    }
+    rows = [
+        [
+            str(int(history["storey"].values[k])),
+            f"{history['slip_force'].values[k] / 1e3:.4g}",
+            *(f"{column.scale * float(values[name].values[k]):.4g}" for name, column in shown.items()),
+            str(int(history["storey_transitions"].values[k])),
+        ]
+        for k in reversed(range(history.sizes["storey"]))
+    ]
+    head = ["storey", "slips at kN", *(column.head for column in shown.values()), "phases"]
+    return table(head, rows)
 
 
 def _results(history: xr.Dataset) -> str:
     """Return the peaks, a line each."""
     from fdspec.units import G
 
-    one = history.isel(storey=0)
+    one = history[["peak_acceleration", "peak_displacement", "peak_velocity"]].max("storey")
+    last = history["residual_displacement"]
+    last = last.isel(storey=int(np.argmax(np.abs(last.values))))
     lines = {
         "PGA": f"{history['pga'].item() / G:.4g} g",
         "peak acceleration": f"{one['peak_acceleration'].item() / G:.4g} g",
         "peak displacement": f"{one['peak_displacement'].item() * 1e3:.4g} mm",
         "peak velocity": f"{one['peak_velocity'].item():.4g} m/s",
         "peak base shear": f"{history['peak_base_shear'].item() / 1e3:.4g} kN",
-        "residual displacement": f"{one['residual_displacement'].item() * 1e3:.4g} mm",
+        "residual displacement": f"{last.item() * 1e3:.4g} mm",
         "changes of phase": f"{history['transitions'].item()}",
         "energy of friction": f"{history['dissipated_energy'].item() / 1e3:.4g} kJ",
         "energy put in": f"{history['input_energy'].values[-1] / 1e3:.4g} kJ",
         "error of energy": f"{history['energy_error'].item():.1e} of the energy put in",
     }
+    if "ductility" in one:
+        lines |= {
+            "largest slip": f"{one['peak_slip'].item() * 1e3:.4g} mm",
+            "ductility": f"{one['ductility'].item():.4g}",
+            "plastic drift": f"{one['plastic_drift'].item() * 1e3:.4g} mm",
+            "energy of columns": f"{one['column_energy'].item() / 1e3:.4g} kJ",
+        }
     width = max(map(len, lines))
     return "\n".join(f"{name:<{width}}  {value}" for name, value in lines.items())

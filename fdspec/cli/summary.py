@@ -1,116 +1,141 @@
-"""What a person wants to see when a cube is done."""
+"""`fdspec summary`: statistics of a cube over its records."""
 
 from __future__ import annotations
 
-import logging
-import math
-import os
-from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+import click
 import numpy as np
 
-from fdspec.cli.table import counted, filled, grouped, seconds, size, table
-from fdspec.measures import best_damper
-from fdspec.units import G
+from fdspec.cli.as_json import echo_json, json_option, of_dataset
+from fdspec.cli.echo import echo
+from fdspec.cli.output import force_option, free
+from fdspec.cli.table import table
+from fdspec.errors import InvalidInput
 
 if TYPE_CHECKING:
     import xarray as xr
 
-AXES = ("record", "stiffness_ratio", "pretension", "period")
 
-MANY = 100
-"""Records; of more no table is shown."""
+@click.command()
+@click.argument("cube", metavar="CUBE")
+@click.option(
+    "--variable", "variables", multiple=True, metavar="NAME", help="A result; repeat it.  [default: all]"
+)
+@click.option(
+    "--percentile",
+    "percentiles",
+    multiple=True,
+    type=float,
+    metavar="P",
+    help="From 0 to 100; repeat it.  [default: 16 and 84]",
+)
+@click.option(
+    "--at",
+    "places",
+    multiple=True,
+    metavar="AXIS=VALUE",
+    help="Take one point of an axis, such as period=0.5 or building=office; repeat it for several axes.",
+)
+@click.option("-o", "--output", metavar="FILE", help="Write them: .nc or .csv.")
+@json_option
+@force_option
+def summary(
+    cube: str,
+    variables: tuple[str, ...],
+    percentiles: tuple[float, ...],
+    places: tuple[str, ...],
+    output: str | None,
+    as_json: bool,
+    force: bool,
+) -> None:
+    """Sum up a cube over its records: median, mean, percentiles and worst of every result.
 
-LISTED = 20
-"""Histories that did not end well and are shown one by one."""
+    Histories that did not end well do not count. Where more than one cell is left beside the storeys, the
+    table shows the least and the most of each statistic over the cells; the file and --json hold every cell.
+    """
+    from fdspec import store
+    from fdspec.measures.summary import PERCENTILES
+    from fdspec.measures.summary import summary as compute
+    from fdspec.store.suitable import require_sound
 
-log = logging.getLogger(__name__)
+    path = None if output is None else free(output, force=force, suffixes=(".nc", ".csv"))
+    opened = store.open(cube)
+    require_sound(opened, cube)
+    if "record" not in opened.dims or "status" not in opened:
+        raise InvalidInput(f"{cube} is no cube; a summary needs what fdspec sweep writes")
+    for place in places:
+        opened = _at(opened, place)
+    told = compute(opened, variables or None, percentiles=percentiles or PERCENTILES)
+    if path is not None:
+        if path.suffix.lower() == ".csv":
+            store.export(told, path)
+        else:
+            store.save(told, path, overwrite=force)
+    if as_json:
+        echo_json({"files": [str(path)] if path else [], **of_dataset(told)})
+        return
+    echo(_table(told))
+    if path is not None:
+        echo(str(path))
 
-SHORT = 0.6
-"""s; up to this period the study finds friction dampers to help."""
 
-
-def summary(cube: xr.Dataset, path: Path, elapsed: float) -> str:
-    """Return a table of the records and where the cube is."""
-    axes = " x ".join(counted(cube.sizes[dim], dim.replace("_", " ")) for dim in AXES)
-    histories = counted(math.prod(cube.sizes[dim] for dim in AXES), "history", "histories")
-    written = f"{path} ({size(_bytes(path))})"
-    lines = [f"{written}: {axes} = {histories}, in {seconds(elapsed)}"]
-    if "peak_acceleration" in cube and cube.sizes["record"] <= MANY:
-        lines = [_records_table(cube), "", *lines]
-    return "\n".join(lines)
-
-
-def _records_table(cube: xr.Dataset) -> str:
-    """Table of the records, read one by one: the cube may be larger than memory."""
-    wanted = cube[[name for name in ("peak_acceleration", "elastic_acceleration", "status") if name in cube]]
-    tables = [_columns(wanted.isel(record=[k]).load()) for k in range(cube.sizes["record"])]
-    rows = [[cells[0] for _, cells in columns] for columns in tables]
-    explained = ["min, max: smallest and largest peak absolute acceleration of the floor."]
-    if "elastic_acceleration" in cube:
-        explained.append(
-            "Best damper for periods in a band: pretension (kN), stiffness ratio (SR), and peak acceleration "
-            "as share of the frame's without brace, averaged over the band; the lowest on the grid."
+def _at(cube: xr.Dataset, place: str) -> xr.Dataset:
+    """Take one point of an axis."""
+    axis, equals, text = place.partition("=")
+    axis = axis.strip()
+    if not equals:
+        raise click.UsageError(f"--at: {place!r} should be AXIS=VALUE, such as period=0.5.")
+    known = [str(dim) for dim in cube.dims if dim != "record"]
+    if axis not in known:
+        raise InvalidInput(f"--at: {axis!r} is no axis of the cube; it has {', '.join(known)}")
+    values = cube[axis].values
+    if values.dtype.kind in "UTO":
+        held = [str(value) for value in values]
+        if text not in held:
+            raise InvalidInput(f"--at: {axis} has no {text!r}; it has {', '.join(held)}")
+        return cube.isel({axis: held.index(text)})
+    try:
+        wanted = float(text)
+    except ValueError:
+        raise InvalidInput(f"--at: {axis} is a number, got {text!r}") from None
+    numbers = values.astype(np.float64)
+    same = np.isclose(numbers, wanted, rtol=1e-9, atol=0.0)
+    if not same.any():
+        near = numbers[np.argsort(np.abs(numbers - wanted))[:2]]
+        raise InvalidInput(
+            f"--at: {axis} has no {wanted:g}; nearest are {' and '.join(f'{v:g}' for v in near)}"
         )
-    head = [name for name, _ in tables[0]]
-    return "\n".join([table(head, rows, left=("record",)), "", *map(filled, explained)])
+    return cube.isel({axis: int(np.argmax(same))})
 
 
-def _columns(cube: xr.Dataset) -> list[tuple[str, list[str]]]:
-    peak = cube["peak_acceleration"].where(cube["status"] == 0) / G
-    dims = ["stiffness_ratio", "pretension", "period"]
-    columns = [
-        ("record", [str(name) for name in cube["record"].values]),
-        ("PGA g", [f"{value:.3f}" for value in cube["pga"].values / G]),
-        ("min g", [f"{value:.3f}" for value in peak.min(dims).values]),
-        ("max g", [f"{value:.3f}" for value in peak.max(dims).values]),
-    ]
-    if "elastic_acceleration" in cube:
-        bands = [
-            (f"to {SHORT:g} s", cube.isel(period=np.flatnonzero(cube["period"].values <= SHORT))),
-            (f"over {SHORT:g} s", cube.isel(period=np.flatnonzero(cube["period"].values > SHORT))),
-        ]
-        for name, band in bands:
-            if band.sizes["period"]:
-                columns += _best(name, band)
-    return columns
+def _table(told: xr.Dataset) -> str:
+    statistics = [str(name) for name in told["statistic"].values]
+    by_storey = "storey" in told.dims
+    head = ["result", "unit", *(["storey"] if by_storey else []), *statistics]
+    rows = []
+    for name, array in told.data_vars.items():
+        if name == "records":
+            continue
+        unit = str(array.attrs.get("units", ""))
+        if by_storey and "storey" in array.dims:
+            for k in reversed(range(array.sizes["storey"])):
+                one = array.isel(storey=k)
+                rows.append([str(name), unit, str(int(told["storey"].values[k])), *_cells(one, statistics)])
+        else:
+            rows.append([str(name), unit, *([""] if by_storey else []), *_cells(array, statistics)])
+    return table(head, rows, left=("result", "unit"))
 
 
-def _best(name: str, band: xr.Dataset) -> list[tuple[str, list[str]]]:
-    best = best_damper(band)
-    known = np.isfinite(best["acceleration_ratio"].values)
-
-    def told(values: np.ndarray, form: str) -> list[str]:
-        return [form.format(value) if ok else "-" for value, ok in zip(values, known, strict=True)]
-
-    return [
-        (f"{name}: kN", told(best["pretension"].values / 1e3, "{:.4g}")),
-        ("SR", told(best["stiffness_ratio"].values, "{:.3g}")),
-        ("share", told(best["acceleration_ratio"].values, "{:.0%}")),
-    ]
-
-
-def statuses(cube: xr.Dataset) -> tuple[str, int]:
-    """Return how the histories ended, with where those are that did not end well, and the number of these."""
-    from fdspec.measures.statuses import failed_cells, status_counts
-
-    counts = status_counts(cube)
-    told = "status: " + ", ".join(f"{grouped(number)} {meaning}" for meaning, number in counts.items())
-    log.info("%s", told)
-    lines = [told]
-    for number, cell in enumerate(failed_cells(cube)):
-        log.warning("%s", cell)
-        if number < LISTED:
-            lines.append(f"  {cell}")
-    failed = sum(number for meaning, number in counts.items() if meaning != "ok")
-    if failed > LISTED:
-        lines.append(f"  and {grouped(failed - LISTED)} more; --log lists all, as does fdspec check --all")
-    return "\n".join(lines), failed
-
-
-def _bytes(path: Path) -> int:
-    """Size of a file, or of all files of a store."""
-    if path.is_file():
-        return path.stat().st_size
-    return sum(Path(folder, name).stat().st_size for folder, _, names in os.walk(path) for name in names)
+def _cells(array: Any, statistics: list[str]) -> list[str]:
+    cells = []
+    for k, _ in enumerate(statistics):
+        values = array.isel(statistic=k).values
+        known = values[np.isfinite(values)]
+        if not known.size:
+            cells.append("-")
+        elif known.min() == known.max():
+            cells.append(f"{known.min():.4g}")
+        else:
+            cells.append(f"{known.min():.4g} to {known.max():.4g}")
+    return cells

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import time
 import warnings
 from contextlib import nullcontext
@@ -12,10 +13,12 @@ from typing import TYPE_CHECKING
 
 import click
 
+from fdspec.cli.as_json import echo_json, json_option
 from fdspec.cli.echo import echo
 from fdspec.cli.held import holds
+from fdspec.cli.numbers_option import Numbers
 from fdspec.cli.output import force_option, free, is_there
-from fdspec.cli.record_options import file_options, named_records
+from fdspec.cli.record_options import RecordsOption, file_options, named_records
 from fdspec.cli.run_options import STORE_SUFFIX, client_of, kept, logged, run_options, store_of
 from fdspec.cli.table import grouped, seconds, size
 from fdspec.errors import BusyError
@@ -24,7 +27,7 @@ from fdspec.locks import locked
 if TYPE_CHECKING:
     import xarray as xr
 
-    from fdspec.runs.study import Study
+    from fdspec.runs.studies import AnyStudy
 
 
 @click.command()
@@ -40,11 +43,19 @@ if TYPE_CHECKING:
     "--record",
     "--records",
     "records",
+    cls=RecordsOption,
     multiple=True,
     metavar="NAME|FILE",
     help="A record of the catalogue or a file, in place of the study's; repeat it for several.",
 )
 @file_options
+@click.option(
+    "--intensity",
+    type=Numbers(),
+    metavar="X",
+    help="Factors on all records, a further axis: numbers with commas, LOW:HIGH:COUNT on a logarithmic "
+    "scale, or both.",
+)
 @click.option(
     "--raw", is_flag=True, help="Leave the catalogue's records as recorded, not scaled to the study's PGA."
 )
@@ -58,6 +69,7 @@ if TYPE_CHECKING:
     "--print-study", is_flag=True, help="Print the study as a study file, to be edited; compute nothing."
 )
 @run_options
+@json_option
 @force_option
 def sweep(
     study_file: str | None,
@@ -66,6 +78,7 @@ def sweep(
     units: str | None,
     dt: float | None,
     channel: str | None,
+    intensity: list[float] | None,
     raw: bool,
     no_certify: bool,
     dry_run: bool,
@@ -76,9 +89,13 @@ def sweep(
     resumable: bool | None,
     restart: bool,
     log: str | None,
+    as_json: bool,
     force: bool,
 ) -> None:
     """Compute the cube of a study: peaks over record, stiffness ratio, pretension and period.
+
+    A study that names buildings, or a building file by itself, gives the cube of buildings: peaks of every
+    storey over record, building, and factors on the stiffness of braces and on slip forces.
 
     Without STUDY.toml it is the study of the nine records: 41 580 histories. To make a study of your own,
     edit what this prints:
@@ -86,11 +103,13 @@ def sweep(
     \b
         fdspec sweep --print-study > mine.toml
     """
+    from fdspec.runs.building_study import read_study
+    from fdspec.runs.studies import with_intensity
     from fdspec.runs.study import Study
     from fdspec.store import check_writable
 
     started = time.perf_counter()
-    study = Study() if study_file is None else Study.read(study_file)
+    study: AnyStudy = Study() if study_file is None else read_study(study_file)
     if records:
         chosen = named_records(records, units, dt, channel)
         study = dataclasses.replace(study, records=chosen, folder=Path())
@@ -99,6 +118,8 @@ def sweep(
     study = dataclasses.replace(
         study, scaled=study.scaled and not raw, certify=study.certify and not no_certify
     )
+    if intensity is not None:
+        study = with_intensity(study, intensity)
     if print_study:
         echo(study.to_toml(), nl=False)
         return
@@ -113,7 +134,7 @@ def sweep(
     elif not path.is_dir():
         check_writable(path, suffixes=(STORE_SUFFIX,))
     if dry_run:
-        echo(_plan(study, path))
+        echo(_plan(study, path, as_json))
         return
     with locked(path):
         if is_there(path) and not force and holds(path, study, study.motions()):
@@ -121,11 +142,11 @@ def sweep(
             return
         if path.suffix != STORE_SUFFIX:
             free(path, force=force)
-        _run(study, path, started, threads, workers, scheduler, resumable, restart, log, force)
+        _run(study, path, started, threads, workers, scheduler, resumable, restart, log, force, as_json)
 
 
 def _run(
-    study: Study,
+    study: AnyStudy,
     path: Path,
     started: float,
     threads: int | None,
@@ -135,15 +156,13 @@ def _run(
     restart: bool,
     log: str | None,
     force: bool,
+    as_json: bool,
 ) -> None:
     """Compute and write; nobody else writes there meanwhile."""
-    from fdspec.model.grid import GRID_FIELDS
-    from fdspec.runs.sweep import measured
-    from fdspec.runs.sweep import sweep as compute
+    from fdspec.runs.studies import compute, expected
 
     motions = study.motions()
-    expected = partial(measured, motions, study.grid, study.certify)
-    store = store_of(path, resumable=resumable, expected=expected)
+    store = store_of(path, resumable=resumable, expected=partial(expected, study, motions))
     with (
         logged(log),
         kept(store),
@@ -151,22 +170,22 @@ def _run(
         client_of(workers, scheduler) as client,
     ):
         cube = compute(
+            study,
             motions,
-            **{name: getattr(study.grid, name) for name in GRID_FIELDS},
-            outputs=study.outputs,
-            certify=study.certify,
             workers=threads,
             client=client,
             store=store,
             restart=restart,
             progress=True,
         )
-        _finish(cube, path, store, force, started)
+        _finish(cube, path, store, force, started, as_json)
 
 
-def _finish(cube: xr.Dataset, path: Path, store: Path | None, force: bool, started: float) -> None:
+def _finish(
+    cube: xr.Dataset, path: Path, store: Path | None, force: bool, started: float, as_json: bool
+) -> None:
     """Write the cube and say what it holds."""
-    from fdspec.cli.summary import statuses, summary
+    from fdspec.cli.outcome import as_data, statuses, summary
     from fdspec.store import remove, save, to_netcdf
 
     if store is None:
@@ -175,8 +194,12 @@ def _finish(cube: xr.Dataset, path: Path, store: Path | None, force: bool, start
         to_netcdf(store, path, overwrite=force)
     with cube:
         told, failed = statuses(cube)
-        echo(summary(cube, path, time.perf_counter() - started))
-        echo(told)
+        elapsed = time.perf_counter() - started
+        if as_json:
+            echo_json(as_data(cube, path, elapsed))
+        else:
+            echo(summary(cube, path, elapsed))
+            echo(told)
     if failed:
         warnings.warn(f"{failed} histories did not end well; their cells are listed above", stacklevel=1)
     if store is not None and store != path:
@@ -186,34 +209,41 @@ def _finish(cube: xr.Dataset, path: Path, store: Path | None, force: bool, start
             warnings.warn(f"{store} is being read and was kept; remove it when it is not", stacklevel=1)
 
 
-def _plan(study: Study, path: Path) -> str:
+def _plan(study: AnyStudy, path: Path, as_json: bool) -> str:
     """Say what a run would do."""
-    from fdspec.runs.bounds import seconds_of_sweep
-    from fdspec.runs.cost import measured
-    from fdspec.runs.sweep import bytes_of, refuse_endless, usual_outputs
-    from fdspec.scheduling.threads import cores
+    from fdspec.runs.studies import planned, refuse_endless, rough_seconds
+    from fdspec.scheduling.task import cores
 
     motions = study.motions()
-    outputs = study.outputs or usual_outputs(study.grid)
-    rough = sum(seconds_of_sweep(study.grid, motions, study.certify))
-    store = store_of(path, resumable=None, expected=lambda: rough / cores())
-    refuse_endless(motions, study.grid, outputs, rough, store)
-    histories = len(motions) * study.grid.size
-    cost = measured(study.grid, motions, study.certify)
-    total, count = cost.of_sweep(study.grid, motions), cores()
-    n_sr, n_f, n_t = study.grid.shape
+    count = cores()
+    store = store_of(path, resumable=None, expected=lambda: rough_seconds(study, motions) / count)
+    refuse_endless(study, motions, store)
+    plan = planned(study, motions)
     samples = sum(motion.n for motion in motions)
-    return "\n".join(
-        (
-            f"records           {', '.join(motion.name for motion in motions)} ({grouped(samples)} samples)",
-            f"stiffness ratios  {n_sr}",
-            f"pretensions       {n_f}",
-            f"periods           {n_t}",
-            f"histories         {grouped(histories)}",
-            f"measured cost     {1e6 * total / histories:.3g} us of core time a history",
-            f"transitions       {cost.transitions_per_sample * samples / len(motions):.0f} a history",
-            f"expected time     {seconds(total)} of core time, {seconds(total / count)} on {count} cores",
-            f"expected size     at most {size(sum(bytes_of(motions, study.grid, outputs).values()))}",
-            f"would write       {path}",
+    if as_json:
+        return json.dumps(
+            {
+                "records": [motion.name for motion in motions],
+                "samples": samples,
+                **{name.replace(" ", "_"): number for name, number in plan.axes},
+                "histories": plan.histories,
+                "core_seconds": plan.seconds,
+                "cores": count,
+                "bytes": plan.n_bytes,
+                "output": str(path),
+            }
         )
+    rows = {
+        "records": f"{', '.join(motion.name for motion in motions)} ({grouped(samples)} samples)",
+        **{name: grouped(number) for name, number in plan.axes},
+        "histories": grouped(plan.histories),
+        "measured cost": f"{1e6 * plan.seconds / plan.histories:.3g} us of core time a history",
+    }
+    if plan.transitions is not None:
+        rows["transitions"] = f"{plan.transitions:.0f} a history"
+    rows["expected time"] = (
+        f"{seconds(plan.seconds)} of core time, {seconds(plan.seconds / count)} on {count} cores"
     )
+    rows["expected size"] = f"at most {size(plan.n_bytes)}"
+    rows["would write"] = str(path)
+    return "\n".join(f"{name:<18}{told}" for name, told in rows.items())

@@ -9,7 +9,7 @@ import textwrap
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Final
 
-import click
+from fdspec.cli.echo import END, MARKS
 
 READABLE: Final = 110
 """Letters in a line of running text, at most: longer ones are hard to follow."""
@@ -125,10 +125,10 @@ def _aligned(
 
 
 def styled(text: str, colour: str | None) -> str:
-    """Return text in a colour where stdout is a terminal and NO_COLOR (no-color.org) is not set."""
+    """Return text marked for `echo` to colour, on a terminal and where NO_COLOR (no-color.org) is not set."""
     if colour is None or os.environ.get("NO_COLOR") or not on_terminal():
         return text
-    return click.style(text, fg=colour)
+    return f"{MARKS[colour]}{text}{END}"
 
 
 def grouped(number: float) -> str:

@@ -110,7 +110,7 @@ def _as_markdown(rows: Sequence[Row]) -> str:
 
 
 def _as_json(rows: Sequence[Row], elapsed: float) -> str:
-    from fdspec import __version__
+    from fdspec.version import __version__
 
     def plain(value: float) -> float | None:
         return value if math.isfinite(value) else None

@@ -8,9 +8,10 @@ import numpy as np
 
 from fdspec.engines.trajectory import Course, FloatArray, IntArray, Span
 from fdspec.errors import InvalidInput
-from fdspec.kernels.frame.history import END, END_ROWS, RADIANS, STOREY_RESULTS, TOTALS, integrate
+from fdspec.kernels.frame.history import integrate
 from fdspec.kernels.frame.model import BRACE_MASS, SLIP_FORCE, held_rates, rate_of, slip_norms
 from fdspec.kernels.frame.output import STOREY_TRACES, TOTAL_TRACES
+from fdspec.kernels.frame.results import END, END_ROWS, RADIANS, STOREY_RESULTS, TOTALS
 from fdspec.model.building import Building, Frame
 from fdspec.model.motion import GroundMotion
 

@@ -16,7 +16,7 @@ import numpy as np
 from fdspec.engines.many_storeys import integrate_many_storeys
 from fdspec.engines.trajectory import FloatArray, Rest, Span
 from fdspec.errors import InvalidInput
-from fdspec.kernels.frame.history import END_ROWS
+from fdspec.kernels.frame.results import END_ROWS
 from fdspec.kernels.storey.rest import REST_STEPS
 from fdspec.kernels.types import OK, TRANSITION_CAP_REACHED
 from fdspec.model.building import Building

@@ -12,16 +12,13 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fdspec.engines.many_storeys import rates_of
 from fdspec.errors import InvalidInput
 from fdspec.kernels.devices import layout as row
-from fdspec.kernels.frame.history import RADIANS as FRAME_RADIANS
+from fdspec.kernels.frame.results import RADIANS as FRAME_RADIANS
+from fdspec.kernels.storey.constants import RADIANS
 from fdspec.model.building import Building
 
 FloatArray = NDArray[np.float64]
-
-RADIANS: Final = 1.0
-"""Longest phase of a step or piece: that of the single-storey kernels."""
 
 MAX_STEPS: Final = 1e9
 """Steps of one history above which it is refused: minutes of one core."""
@@ -52,11 +49,30 @@ def steps_of_storeys(storeys: ArrayLike, dt: float, record_steps: int) -> FloatA
     """
     m, c, k, md, cd, kd, force = np.moveaxis(np.asarray(storeys, np.float64)[..., :7], -1, 0)
     floor = fastest_rate(m, c, k)
-    stick = fastest_rate(m + md, c + cd, k + kd)
-    parts = np.maximum(1.0, np.ceil(np.maximum(stick, floor) * dt / RADIANS))
+    parts = parts_of_storeys(storeys, dt)
     sliding = np.maximum(floor, fastest_rate(md, cd, kd))
     pieces = np.maximum(1.0, np.ceil(sliding * dt / parts / RADIANS))
     return np.asarray(record_steps * parts * np.where(np.isinf(force), 1.0, pieces))
+
+
+def parts_of_storeys(storeys: ArrayLike, dt: float) -> FloatArray:
+    """Return the steps of single storeys (..., 6 or more) in each record step of dt, s: the kernels' own."""
+    m, c, k, md, cd, kd = np.moveaxis(np.asarray(storeys, np.float64)[..., :6], -1, 0)
+    fastest = np.maximum(fastest_rate(m + md, c + cd, k + kd), fastest_rate(m, c, k))
+    return np.asarray(np.maximum(1.0, np.ceil(fastest * dt / RADIANS)))
+
+
+def steps_of_building(building: Building, dt: float) -> float:
+    """Return the most steps that a history takes in each record step of dt, s, changes not counted."""
+    if building.n_storeys == 1 and not building.has_devices:
+        return float(steps_of_storeys(np.array(building.storey), dt, 1))
+    # Imported here: loading the kernels for many storeys is nothing that a sweep of single storeys waits for.
+    from fdspec.engines.many_storeys import rates_of
+
+    fastest = float(rates_of(building.frame).max())
+    if building.has_devices:
+        fastest = max(fastest, float(_link_rates(building).max(initial=0.0)))
+    return max(1.0, float(np.ceil(fastest * dt / FRAME_RADIANS)))
 
 
 def most_steps() -> float:
@@ -83,16 +99,8 @@ def refuse_endless(building: Building, dt: float, record_steps: int, limit: floa
     m, md, kd, cd = building.floor_mass, building.brace_mass, building.brace_stiffness, building.brace_damping
     slips = np.isfinite(building.slip_force)
     brace = np.where(slips, fastest_rate(md, cd, kd), 0.0)
-    links = np.zeros(0)
-    if building.has_devices:
-        links = _link_rates(building)
-        fastest = max(rates_of(building.frame).max(), links.max(initial=0.0))
-        steps = record_steps * max(1.0, np.ceil(fastest * dt / FRAME_RADIANS))
-    elif building.n_storeys == 1:
-        steps = float(steps_of_storeys(np.array(building.storey), dt, record_steps))
-    else:
-        fastest = rates_of(building.frame).max()
-        steps = record_steps * max(1.0, np.ceil(fastest * dt / FRAME_RADIANS))
+    links = _link_rates(building) if building.has_devices else np.zeros(0)
+    steps = record_steps * steps_of_building(building, dt)
     if steps <= most:
         return
     i = int(np.argmax(brace))

@@ -14,6 +14,11 @@ from fdspec.explore.content import Content, embedded
 SCRIPTS: Final = ("numbers.js", "best.js", "words.js", "plots.js", "histories.js", "downloads.js", "page.js")
 """In the order of their use; together they are one script."""
 
+SKETCH: Final = (
+    "Drawing of a frame: a floor on columns, a chevron brace below it, and between them the friction damper, "
+    "a slotted plate that bolts clamp between two others."
+)
+
 NO_NETWORK: Final = (
     "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval'; style-src 'unsafe-inline'; "
     "img-src data: blob:; connect-src data: blob:"
@@ -57,6 +62,7 @@ def _page(content: Content, about: str, library: str, numbers: str, policy: str)
         "policy": policy,
         "title": html.escape(f"{content.name} - fdspec explore"),
         "style": f"<style>\n{_asset('page.css')}</style>",
+        "sketch": f'<img id="sketch" alt="{SKETCH}" src="data:image/svg+xml;base64,{_drawing()}">',
         "about": f'<script type="application/json" id="about">{about}</script>',
         "numbers": numbers,
         "library": library,
@@ -77,6 +83,10 @@ def _numbers(content: Content, first: int | None = None) -> str:
         f'<script type="text/plain" id="record-{k}">{base64.b64encode(content.record(k)).decode()}</script>'
         for k in range(len(content.records))[:first]
     )
+
+
+def _drawing() -> str:
+    return base64.b64encode(_asset("sketch.svg").encode()).decode()
 
 
 def _asset(name: str) -> str:

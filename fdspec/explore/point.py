@@ -92,7 +92,7 @@ def history_at(
     """Return the history at a point (SI) and what a reader must know of its motion."""
     rerun.check(record=record)
     found = rerun.motions.find(str(rerun.cube["record"].values[record]))
-    return simulate(frame_at(rerun, point), found.motion, dt_out=found.motion.dt / finer), found.notice
+    return rerun.simulated(frame_at(rerun, point), found, finer)
 
 
 def packed_point(rerun: Rerun, record: int, point: Mapping[str, float]) -> bytes:

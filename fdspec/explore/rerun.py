@@ -8,10 +8,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from fdspec.errors import InvalidInput
-from fdspec.explore.motions import Motions
+from fdspec.explore.motions import Found, Motions
 from fdspec.explore.traces import LOOP_FINER, packed_history
 from fdspec.model.building import Building
-from fdspec.runs.bounds import refuse_long, seconds_of_history
+from fdspec.model.grid import DEVICE_FIELDS
+from fdspec.runs.bounds import refuse_long
+from fdspec.runs.cost import seconds_of_history
 from fdspec.runs.simulate import simulate
 
 if TYPE_CHECKING:
@@ -73,7 +75,11 @@ class Rerun:
         """
         self.check(record=record, stiffness_ratio=stiffness_ratio, pretension=pretension, period=period)
         found = self.motions.find(str(self.cube["record"].values[record]))
-        frame = self.building(stiffness_ratio, pretension, period)
+        return self.simulated(self.building(stiffness_ratio, pretension, period), found, finer)
+
+    @staticmethod
+    def simulated(frame: Building, found: Found, finer: int) -> tuple[xr.Dataset, str]:
+        """Return a frame's history, refused where it would keep the page waiting, and its notice."""
         seconds = seconds_of_history(frame, found.motion.dt, found.motion.n)
         refuse_long(seconds, PAGE_HOURS, "this history")
         return simulate(frame, found.motion, dt_out=found.motion.dt / finer), found.notice
@@ -111,6 +117,7 @@ def _parameters(cube: xr.Dataset) -> tuple[dict[str, Any], dict[str, Any]]:
     try:
         told: dict[str, Any] = json.loads(str(cube.attrs["parameters"]))
         frame = {name: float(told[name]) for name in FRAME}
+        frame |= {name: float(told[name]) for name in DEVICE_FIELDS if told.get(name) is not None}
         return frame, {name: None if told[name] is None else float(told[name]) for name in FRICTION}
     except (KeyError, TypeError, ValueError) as error:
         raise InvalidInput(

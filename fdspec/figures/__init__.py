@@ -12,6 +12,7 @@ from fdspec.figures.hysteresis import plot_hysteresis
 from fdspec.figures.journal import plot_acceleration_print
 from fdspec.figures.maps import plot_acceleration_maps
 from fdspec.figures.page import at_width, lettering
+from fdspec.figures.profiles import design_of, plot_profiles, profiles_caption
 from fdspec.figures.record import plot_record
 from fdspec.figures.sketch import plot_sketch, sketch_caption
 from fdspec.figures.surfaces import acceleration_caption, plot_acceleration
@@ -21,6 +22,7 @@ from fdspec.figures.validation import plot_bare_and_damped, plot_brace_displacem
 __all__ = [
     "acceleration_caption",
     "at_width",
+    "design_of",
     "encode",
     "ensemble_caption",
     "lettering",
@@ -40,9 +42,11 @@ __all__ = [
     "plot_histories",
     "plot_history",
     "plot_hysteresis",
+    "plot_profiles",
     "plot_record",
     "plot_sketch",
     "plot_spectra",
+    "profiles_caption",
     "shortest_stick",
     "sketch_caption",
 ]

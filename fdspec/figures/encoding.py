@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any, Final
 
 import matplotlib as mpl
 
+from fdspec.figures.fonts import give_glyphs
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -42,12 +44,13 @@ def encode(
     bytes
         The same for the same figure. Text in a PDF is embedded as TrueType (Type 42).
     """
-    from fdspec import __version__
+    from fdspec.version import __version__
 
     told = title or next(iter(str(figure.get_label() or figure.get_suptitle()).splitlines()), "")
     metadata = {**DATELESS[kind], AUTHOR[kind]: author or f"fdspec {__version__}"}
     if told:
         metadata["Title"] = told
+    give_glyphs(figure)
     file = io.BytesIO()
     # SVG names its parts after random numbers unless it has a salt; journals refuse the fonts of Type 3.
     with mpl.rc_context({"svg.hashsalt": "fdspec", "pdf.fonttype": 42}):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from fdspec.errors import InvalidInput
+from fdspec.figures.fonts import give_glyphs
 from fdspec.figures.page import Figure
 from fdspec.signals.intensity import arias_time, husid, intensity
 from fdspec.units import G
@@ -74,6 +75,7 @@ def plot_record(motion: GroundMotion, spectra: xr.Dataset) -> Figure:
     displacement.set_ylabel("peak displacement, mm")
     displacement.set_xlabel("period, s")
     figure.suptitle(_title(motion), fontsize="medium")
+    give_glyphs(figure)
     return figure
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 from matplotlib.patches import FancyBboxPatch, Polygon, Rectangle, RegularPolygon
 
+from fdspec.figures.caption import add_caption
 from fdspec.figures.page import Figure
 from fdspec.figures.storeys import FLOOR
 
@@ -32,7 +33,7 @@ MOST: Final = 6
 SMALL: Final = 8.0
 
 
-def plot_sketch(building: Building | None = None) -> Figure:
+def plot_sketch(building: Building | None = None, *, title: str = "", caption: str = "") -> Figure:
     """Draw the frame with its braces and dampers, and one damper close up: the study's Figures 1 and 7.
 
     Parameters
@@ -40,6 +41,7 @@ def plot_sketch(building: Building | None = None) -> Figure:
     building : Building, optional
         Whose storeys are drawn and, of a single storey, whose numbers stand beside the symbols. Without one
         the single-storey frame is drawn with symbols alone.
+    title, caption : str
 
     Returns
     -------
@@ -57,6 +59,9 @@ def plot_sketch(building: Building | None = None) -> Figure:
     for axis in (frame, right):
         axis.set_aspect("equal")
         axis.set_axis_off()
+    if title:
+        figure.suptitle(title, fontsize="medium")
+    add_caption(figure, caption)
     return figure
 
 

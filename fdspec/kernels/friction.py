@@ -1,4 +1,5 @@
-"""The friction damper's rules: its reaction while it sticks, and what happens when sliding stops.
+"""The friction damper's rules: its reaction while it sticks, its force and work while it slides, and how
+sliding stops.
 
 Study, equations (3) to (7) and the paragraph on the transition phase.  Floor and brace:
 
@@ -11,7 +12,7 @@ from __future__ import annotations
 
 import math
 
-from fdspec.compiler.options import inner
+from fdspec.compiler.options import inlined, inner
 from fdspec.kernels.types import STICK
 
 GOES_ON = 2
@@ -25,6 +26,21 @@ def reaction(storey, u, v, d):
     brace = storey.brace_stiffness * d + storey.brace_damping * v
     mass = storey.floor_mass + storey.brace_mass
     return (storey.floor_mass * brace - storey.brace_mass * floor) / mass
+
+
+@inlined
+def sliding_force(direction, level):
+    """Force (N) of a damper that slides in this direction, +1 or -1; ``level``: its kinetic slip force.
+
+    It acts backwards on the floor and forwards on the brace; divided by a mass, so is what it returns.
+    """
+    return direction * level
+
+
+@inlined
+def friction_work(level, travel):
+    """Energy (J) that a kinetic slip force takes over a sliding distance (m, at least 0)."""
+    return level * travel
 
 
 @inner

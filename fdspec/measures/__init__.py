@@ -14,6 +14,7 @@ from fdspec.measures.indices import INDICES, index_of, indices, needs_of
 from fdspec.measures.reduction import reduction
 from fdspec.measures.residual import residual
 from fdspec.measures.slip_load import slip_load_spectrum
+from fdspec.measures.summary import summary
 from fdspec.on_demand import submodules
 
 __all__ = [
@@ -31,6 +32,7 @@ __all__ = [
     "residual",
     "slip_load_spectrum",
     "study_claims",
+    "summary",
 ]
 
 if not TYPE_CHECKING:

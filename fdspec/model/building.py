@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from dataclasses import fields as dataclass_fields
 from functools import cached_property
 from typing import Any, TypedDict, Unpack
@@ -395,14 +395,11 @@ class Building:
         >>> frame.with_changes(slip_force=50e3, kinetic_slip_force=40e3).slip_force
         array([50000.])
         """
-        given = {field.name: getattr(self, field.name) for field in dataclass_fields(self)}
-        unknown = sorted(set(changes) - set(given))
+        known = [field.name for field in dataclass_fields(self)]
+        unknown = sorted(set(changes) - set(known))
         if unknown:
-            raise InvalidInput(f"{unknown[0]!r} is no parameter of a building; known are {', '.join(given)}")
-        for name in ("storey_height", "collapse_drift"):
-            if np.isnan(given[name]).any():
-                given[name] = None
-        return Building(**given | changes)
+            raise InvalidInput(f"{unknown[0]!r} is no parameter of a building; known are {', '.join(known)}")
+        return replace(self, **changes)
 
     @property
     def n_storeys(self) -> int:

@@ -7,13 +7,14 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from fdspec.errors import InvalidInput
 from fdspec.model.building import Building, shear_matrix
 from fdspec.model.damping import natural_modes
 from fdspec.model.grid import FloatArray, axis
 
+IntArray = NDArray[np.int64]
 Buildings = Building | Sequence[Building] | Mapping[str, Building]
 
 
@@ -31,6 +32,8 @@ class BuildingGrid:
     slip_scale : array_like, shape (n_s,)
         Factors on all slip forces, static and kinetic: 0 slides freely, infinity never. A slip force that
         is 0 or infinite stays so under every factor.
+    intensity : array_like, shape (n_i,), optional
+        Factors on the ground motions, positive; without them the cube has no such axis.
 
     Raises
     ------
@@ -42,20 +45,45 @@ class BuildingGrid:
     buildings: tuple[Building, ...]
     stiffness_scale: FloatArray
     slip_scale: FloatArray
+    intensity: FloatArray | None
 
     # A dataclass would demand the checked fields themselves; callers may hand over any numbers.
-    def __init__(self, buildings: Buildings, stiffness_scale: ArrayLike, slip_scale: ArrayLike) -> None:
+    def __init__(
+        self,
+        buildings: Buildings,
+        stiffness_scale: ArrayLike,
+        slip_scale: ArrayLike,
+        intensity: ArrayLike | None = None,
+    ) -> None:
         names, members = _named(buildings)
         object.__setattr__(self, "names", names)
         object.__setattr__(self, "buildings", members)
         for name, value, free in (
             ("stiffness_scale", stiffness_scale, False),
             ("slip_scale", slip_scale, True),
+            ("intensity", intensity, False),
         ):
             try:
-                object.__setattr__(self, name, axis(value, zero=free, infinite=free))
+                given = (
+                    None if value is None and name == "intensity" else axis(value, zero=free, infinite=free)
+                )
+                object.__setattr__(self, name, given)
             except ValueError as error:
                 raise InvalidInput(f"{name}: {error}") from None
+
+    def with_intensity(self, intensity: ArrayLike) -> BuildingGrid:
+        """Return the same grid over these factors on the ground motions."""
+        members = dict(zip(self.names, self.buildings, strict=True))
+        return BuildingGrid(members, self.stiffness_scale, self.slip_scale, intensity)
+
+    def part(self, building: IntArray, stiffness: IntArray, slip: IntArray) -> BuildingGrid:
+        """Return the grid of these positions along each axis."""
+        return BuildingGrid(
+            {self.names[k]: self.buildings[k] for k in building},
+            self.stiffness_scale[stiffness],
+            self.slip_scale[slip],
+            self.intensity,
+        )
 
     @property
     def n_storeys(self) -> int:
@@ -66,6 +94,11 @@ class BuildingGrid:
     def shape(self) -> tuple[int, int, int]:
         """Lengths of (building, stiffness_scale, slip_scale), the cube's order of axes."""
         return len(self.buildings), self.stiffness_scale.size, self.slip_scale.size
+
+    @property
+    def intensities(self) -> FloatArray:
+        """(n_i,) factors on the ground motions, a single 1 where there is no such axis."""
+        return np.ones(1) if self.intensity is None else self.intensity
 
     @cached_property
     def slip_force(self) -> FloatArray:

@@ -42,10 +42,8 @@ def device_fields(given: Mapping[str, ArrayLike | None], fields: Mapping[str, Ar
     given: what the caller handed over, by name.  fields: the building's other numbers, checked.
     """
     size = fields["floor_mass"].size
-    devices = {
-        name: per_storey(name, numbers(name, NONE[name] if value is None else value), size)
-        for name, value in given.items()
-    }
+    arrays = {name: numbers(name, NONE[name] if value is None else value) for name, value in given.items()}
+    devices = {name: per_storey(name, array, size) for name, array in arrays.items()}
     with np.errstate(invalid="ignore"):
         good = {
             "storey_height": (devices["storey_height"] > 0.0) & np.isfinite(devices["storey_height"]),
@@ -59,7 +57,8 @@ def device_fields(given: Mapping[str, ArrayLike | None], fields: Mapping[str, Ar
             "collapse_drift": devices["collapse_drift"] > 0.0,
         }
     for name, right in good.items():
-        if given[name] is not None:
+        # Not a number throughout is what an unknown height is kept as; `dataclasses.replace` hands it back.
+        if given[name] is not None and not (np.isnan(NONE[name]) and np.isnan(devices[name]).all()):
             _demand(name, devices[name], right, _WANTED[name])
     _fit_together(devices, fields)
     return devices

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,9 +11,6 @@ from fdspec.kernels.devices import layout as row
 from fdspec.model.building_check import Array, read_only
 from fdspec.model.link import Link, TensionBrace
 from fdspec.model.springs import Linkage
-
-if TYPE_CHECKING:
-    from fdspec.model.building import Building
 
 IntArray = NDArray[np.int64]
 
@@ -45,7 +42,42 @@ class DeviceFrame(NamedTuple):
     """(L,) slip offset of each link in the frame at rest, m: the slack of a one-sided brace."""
 
 
-def device_frame(building: Building, stiffness: Linkage, damping: Linkage) -> DeviceFrame:
+class _Storeys(Protocol):
+    """What is asked of a `fdspec.Building`, which imports this module: arrays over storeys, and its links."""
+
+    @property
+    def floor_mass(self) -> Array: ...
+    @property
+    def brace_mass(self) -> Array: ...
+    @property
+    def brace_stiffness(self) -> Array: ...
+    @property
+    def brace_damping(self) -> Array: ...
+    @property
+    def slip_force(self) -> Array: ...
+    @property
+    def kinetic_slip_force(self) -> Array: ...
+    @property
+    def slot_length(self) -> Array: ...
+    @property
+    def slot_stiffness(self) -> Array: ...
+    @property
+    def recentring_stiffness(self) -> Array: ...
+    @property
+    def yield_shear(self) -> Array: ...
+    @property
+    def hardening_ratio(self) -> Array: ...
+    @property
+    def gravity_load(self) -> Array: ...
+    @property
+    def storey_height(self) -> Array: ...
+    @property
+    def collapse_drift(self) -> Array: ...
+    @property
+    def links(self) -> tuple[Link | TensionBrace, ...]: ...
+
+
+def device_frame(building: _Storeys, stiffness: Linkage, damping: Linkage) -> DeviceFrame:
     """Return the arrays of a building; stiffness and damping are those of its elastic bare frame."""
     size = building.floor_mass.size
     yields = building.yield_shear < np.inf
@@ -159,7 +191,7 @@ def _numbers(link: Link | TensionBrace) -> tuple[list[int], dict[int, float]]:
     }
 
 
-def _drift_limit(building: Building, gravity: Array, stiffness: Linkage) -> Array:
+def _drift_limit(building: _Storeys, gravity: Array, stiffness: Linkage) -> Array:
     """Return the drift at which each storey counts as collapsed, m, (N,)."""
     softens = (building.yield_shear < np.inf) & (building.hardening_ratio < 0.0)
     usual = np.full(building.floor_mass.size, np.inf)

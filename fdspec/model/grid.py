@@ -41,9 +41,11 @@ class Grid:
     normal_force_factor : float
         Newtons on the sliding surface for each newton of `pretension`: 2 n_b where `pretension` is the force
         of one of n_b bolts that clamp two faces.
-    storey_height, yield_shear, hardening_ratio, gravity_load, slot_length, slot_stiffness,
+    storey_height, yield_shear, hardening_ratio, gravity_load, slot_length, slot_stiffness, \
     recentring_stiffness : float
         Devices of all frames alike, as for `fdspec.Building`.
+    intensity : array_like, shape (n_i,), optional
+        Factors on the ground motions; without them the cube has no such axis.
 
     Raises
     ------
@@ -76,6 +78,7 @@ class Grid:
     slot_length: float | None = None
     slot_stiffness: float | None = None
     recentring_stiffness: float | None = None
+    intensity: FloatArray | None = None
 
     def __post_init__(self) -> None:
         mistakes = []
@@ -103,6 +106,11 @@ class Grid:
         return _scaled(self.pretension, coefficient * self.normal_force_factor)
 
     @property
+    def intensities(self) -> FloatArray:
+        """(n_i,) factors on the ground motions, a single 1 where there is no such axis."""
+        return np.ones(1) if self.intensity is None else self.intensity
+
+    @property
     def devices(self) -> dict[str, Any]:
         """The device parameters that are given, by name; empty for frames without devices."""
         given = {name: getattr(self, name) for name in DEVICE_FIELDS if getattr(self, name) is not None}
@@ -114,15 +122,13 @@ class Grid:
 
     @property
     def parameters(self) -> dict[str, Any]:
-        """All fields by name, those of devices where there are any: what a cube says of how it was made."""
-        there = self.devices
-        return {
-            name: getattr(self, name)
-            for name in GRID_FIELDS
-            if name not in DEVICE_FIELDS
-            or name in there
-            or (name == "storey_height" and self.storey_height is not None)
-        }
+        """All fields by name, of devices and intensity those that are there: how a cube was made."""
+        absent = set(DEVICE_FIELDS) - set(self.devices)
+        if self.storey_height is not None:
+            absent.discard("storey_height")
+        if self.intensity is None:
+            absent.add("intensity")
+        return {name: getattr(self, name) for name in GRID_FIELDS if name not in absent}
 
     @property
     def shape(self) -> tuple[int, int, int]:
@@ -133,7 +139,7 @@ class Grid:
     def size(self) -> int:
         """Histories of one record."""
         n_sr, n_f, n_t = self.shape
-        return n_sr * n_f * n_t
+        return self.intensities.size * n_sr * n_f * n_t
 
     @classmethod
     def study(cls) -> "Grid":
@@ -290,4 +296,5 @@ _CHECKS: Final[Mapping[str, Callable[[object], FloatArray | float | None]]] = {
     "slot_length": lambda value: _optional_number(value, zero=False, infinite=True),
     "slot_stiffness": _optional_number,
     "recentring_stiffness": _optional_number,
+    "intensity": lambda value: None if value is None else axis(value),
 }

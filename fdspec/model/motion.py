@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import Any, Final
 
@@ -90,14 +90,14 @@ class GroundMotion:
                 raise InvalidInput(f"{argument} must be a string, not {text!r}")
         if isinstance(history, str) or not all(isinstance(step, str) for step in history):
             raise InvalidInput(f"history must be a sequence of strings, one a step, not {history!r}")
-        fields = {
+        checked = {
             "acceleration": samples,
             "dt": positive_number("dt", dt, "s"),
             **texts,
             "history": tuple(history),
             "scale_factor": finite_number("scale_factor", scale_factor),
         }
-        for key, value in fields.items():
+        for key, value in checked.items():
             object.__setattr__(self, key, value)
         if self.pga > IMPLAUSIBLE_PGA:
             warnings.warn(
@@ -137,7 +137,18 @@ class GroundMotion:
     def scaled(self, factor: float) -> GroundMotion:
         """Return this motion times `factor` (a negative one mirrors it)."""
         factor = finite_number("factor", factor)
-        return self._rescaled(factor, f"scaled by {factor!r}")
+        return self.rescaled(factor, f"scaled by {factor!r}")
+
+    def times(self, factor: float) -> GroundMotion:
+        """Return this motion at another intensity of a sweep: the same record, name and history included.
+
+        A peak beyond what was ever recorded is meant here, and passes without a warning.
+        """
+        louder = object.__new__(GroundMotion)
+        samples = _samples(self.acceleration * finite_number("factor", factor))
+        louder.__dict__.update({one.name: getattr(self, one.name) for one in fields(self)})
+        louder.__dict__["acceleration"] = samples
+        return louder
 
     def scaled_to_pga(self, pga: float) -> GroundMotion:
         """Return this motion scaled to a peak of `pga`, m/s2."""
@@ -147,9 +158,10 @@ class GroundMotion:
                 f"{self._title()} is zero throughout: no factor gives it a PGA of {pga!r} m/s2"
             )
         factor = pga / self.pga
-        return self._rescaled(factor, f"scaled by {factor!r} to a PGA of {pga!r} m/s2")
+        return self.rescaled(factor, f"scaled by {factor!r} to a PGA of {pga!r} m/s2")
 
-    def _rescaled(self, factor: float, step: str) -> GroundMotion:
+    def rescaled(self, factor: float, step: str) -> GroundMotion:
+        """Return this motion times `factor`, with `step`, which says what it was for, in its history."""
         with np.errstate(over="ignore"):  # an overflow is refused, with its reason, by the new motion
             acceleration = self.acceleration * factor
         return replace(

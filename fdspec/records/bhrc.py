@@ -21,7 +21,7 @@ _POINTS: Final = re.compile(r"NO\. OF POINTS\s*=\s*(\d{1,9})\s+DURATION\s*=\s*([
 
 def recognises(text: TextFile) -> bool:
     """Say whether the first line is the title of a block."""
-    return _TITLE.match(text.lines[0]) is not None
+    return _TITLE.match(text.head(1)) is not None
 
 
 def read(text: TextFile) -> tuple[Channel, ...]:
@@ -43,7 +43,7 @@ def _read_block(text: TextFile, first: int) -> tuple[Channel, int]:
     end = text.line(last + 1, "the end of data")
     if end.strip() != "/&":
         raise text.refusal(last + 1, f"expected the end of data, '/&', found {end.strip()[:60]!r}")
-    lines = [line.strip() for line in text.lines[first - 1 : first + HEADER_LINES]]
+    lines = [line.strip() for line in text.heads(first, first + HEADER_LINES)]
     component = lines[6].removeprefix("COMP").strip()
     channel = Channel(
         name=component,

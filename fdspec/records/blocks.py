@@ -20,10 +20,13 @@ def read_blocks(
     title: matches the first line of a block, and `expected` says so in an error; read_block: takes the file
     and the number of that line, returns the channel and the number of the line behind the block.
     """
-    channels = []
+    channels: list[Channel] = []
     number = 1
     while number <= len(text.lines):
-        line = text.lines[number - 1]
+        if channels and not text.head(number).strip():
+            number += 1
+            continue
+        line = text.head(number)
         if title.match(line) is None:
             raise text.refusal(number, f"expected {expected}, found {line[:60]!r}")
         channel, number = read_block(text, number)

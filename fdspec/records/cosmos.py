@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from fdspec.records.channel import Channel
 from fdspec.records.numbers import parse_columns
 from fdspec.records.textfile import TextFile
-from fdspec.records.units import UNITS, to_si
+from fdspec.records.units import acceleration_unit, to_si
 
 NAME: Final = "COSMOS V1 or V2"
 STEP: Final = 61  # real header value 62: step of the series, in ms; value 34 is the raw record's
@@ -49,7 +49,7 @@ class _Header:
 
 def recognises(text: TextFile) -> bool:
     """Say whether the first line is a COSMOS title."""
-    return _TITLE.match(text.lines[0]) is not None
+    return _TITLE.match(text.head(1)) is not None
 
 
 def read(text: TextFile) -> tuple[Channel, ...]:
@@ -69,7 +69,7 @@ def read(text: TextFile) -> tuple[Channel, ...]:
 
 
 def _read_block(text: TextFile, first: int) -> tuple[Channel | None, int]:
-    title = _TITLE.match(text.lines[first - 1])
+    title = _TITLE.match(text.head(first))
     if title is None:
         raise text.refusal(
             first, f"expected the title of a COSMOS block, found {text.lines[first - 1][:60]!r}"
@@ -116,13 +116,13 @@ def _after_end(text: TextFile, line: int) -> int:
     """Return the line after the end-of-data mark."""
     if line > len(text.lines):
         return line
-    if "end" not in text.lines[line - 1].lower():
+    if "end" not in text.head(line).lower():
         raise text.refusal(line, f"expected the end of data, found {text.lines[line - 1].strip()[:60]!r}")
     return line + 1
 
 
 def _unit(text: TextFile, line: int, spelling: str) -> str:
-    unit = UNITS.get(spelling.strip(" .").lower())
+    unit = acceleration_unit(spelling)
     if unit is None:
         reason = "raw counts are no acceleration" if "count" in spelling.lower() else "this unit is not known"
         raise text.refusal(line, f"expected units=g or cm/sec2, found {spelling!r}: {reason}")
@@ -145,7 +145,7 @@ def _step(text: TextFile, line: int, reals: NDArray[np.float64], count: int) -> 
 
 
 def _channel(text: TextFile, first: int, samples: NDArray[np.float64], dt: float, unit: str) -> Channel:
-    lines = text.lines[first - 1 : first + 12]
+    lines = text.heads(first, first + 12)
     event = re.sub(r"^\s*(Rcrd|Record) of\s+", "", lines[1]) if len(lines) > 1 else ""
     station = re.search(r"Code:\s*\S+\s+(.*\S)", lines[4]) if len(lines) > 4 else None
     channel = re.search(r"Sta Chan?:?\s*(\S+?)\s*:\s*(.*?)\s*\(", lines[8]) if len(lines) > 8 else None

@@ -10,9 +10,10 @@ from typing import Final
 
 from fdspec.records.blocks import read_blocks
 from fdspec.records.channel import Channel
+from fdspec.records.channel_names import channel_name
 from fdspec.records.numbers import parse_columns
 from fdspec.records.textfile import TextFile
-from fdspec.records.units import UNITS, to_si
+from fdspec.records.units import acceleration_unit, to_si
 
 NAME: Final = "CSMIP V2"
 HEADER_LINES: Final = 45
@@ -25,6 +26,9 @@ STEP: Final = (
 OLD_A_LINE, OLD_WIDTH = 8, 10
 
 _TITLE: Final = re.compile(r"Corrected accelerogram\s+\S+\s+Chan\s*\w+:", re.IGNORECASE)
+_INTERVALS: Final = re.compile(
+    r"equally[- ]spaced intervals of\s{0,12}(\d{0,3}\.\d{1,6}|\d{1,3}\.?)\s{1,4}sec", re.IGNORECASE
+)
 _DATA: Final = re.compile(
     r"\s*(\d{1,9}) points of (accel|veloc|displ) data equally spaced at\s+([\d.]+) sec"
     r"(?:, in (?P<unit>[^\s(]+?)\.?\s*\(\s*(?P<a_line>\d{1,2})f(?P<width>\d{1,2})\.\d+\)"
@@ -35,7 +39,7 @@ _DATA: Final = re.compile(
 
 def recognises(text: TextFile) -> bool:
     """Say whether the first line is a CSMIP title of corrected data."""
-    return _TITLE.match(text.lines[0]) is not None
+    return _TITLE.match(text.head(1)) is not None
 
 
 def read(text: TextFile) -> tuple[Channel, ...]:
@@ -60,7 +64,7 @@ def _read_block(text: TextFile, first: int) -> tuple[Channel, int]:
         values = parse_columns(text, line + 1, last, width, count)
         if quantity == "accel":
             spelling = data["unit"] or data["old_unit"]
-            unit = UNITS.get(spelling.lower())
+            unit = acceleration_unit(spelling)
             if unit is None:
                 raise text.refusal(line, f"expected acceleration in cm/sec2 or g, found {spelling!r}")
             channel = _channel(
@@ -81,23 +85,30 @@ def _step(text: TextFile, line: int, printed: str) -> float:
         shown = float(printed)
     except ValueError:
         shown = 0.0
-    if exact <= 0.0 or abs(exact - shown) > 0.00051:
+    if exact > 0.0 and abs(exact - shown) <= 0.00051:
+        return exact
+    # Film has its step in other slots; the sentence above the values is believed where a second one agrees.
+    said = next(
+        (match for head in text.heads(line - HEADER_LINES, line - 1) if (match := _INTERVALS.search(head))),
+        None,
+    )
+    if shown <= 0.0 or said is None or abs(float(said[1]) - shown) > 1e-9:
         raise text.refusal(
             line, f"expected the step of real-header value {STEP + 1}, {exact:g} s, found {printed}"
         )
-    return exact
+    return shown
 
 
 def _channel(text: TextFile, first: int, channel: Channel) -> Channel:
-    lines = [line.strip() for line in text.lines[first - 1 : first + 24]]
-    direction = re.sub(r"^Chan\s*\w+:\s*", "", lines[7], flags=re.IGNORECASE)
+    lines = [line.strip() for line in text.heads(first, first + 24)]
+    direction = channel_name(lines[7])
     return Channel(
         name=direction,
         acceleration=channel.acceleration,
         dt=channel.dt,
         units=channel.units,
         event=" ".join(re.sub(r"^(Rcrd|Record) of\s+", "", lines[2].split("(")[0]).split()),
-        station=re.split(r"\s{3,}", lines[6])[0],
+        station=" ".join(re.split(r"\s{3,}", lines[6])[0].split()),
         component=direction,
         processing=(lines[14],) if "filter" in lines[14].lower() else (),
     )

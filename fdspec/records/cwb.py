@@ -8,23 +8,22 @@ from typing import Final
 import numpy as np
 
 from fdspec.records.channel import Channel
-from fdspec.records.keyed import number
+from fdspec.records.keyed import number, split_key
 from fdspec.records.numbers import parse_columns
 from fdspec.records.textfile import TextFile
-from fdspec.records.units import UNITS, to_si
+from fdspec.records.units import acceleration_unit, to_si
 
 NAME: Final = "CWB"
 MAX_HEADER: Final = 60
 WIDTH: Final = 10
 
-_KEY: Final = re.compile(r"#([^:]+):\s*(.*?)\s*$")
 _SEQUENCE: Final = re.compile(r"Time\s+(.*)")
 
 
 def recognises(text: TextFile) -> bool:
     """Say whether CWB's headings stand at the top."""
-    return text.lines[0].startswith("#Earthquake Information") and any(
-        line.startswith("#DataSequence") for line in text.lines[:MAX_HEADER]
+    return text.head(1).startswith("#Earthquake Information") and any(
+        line.startswith("#DataSequence") for line in text.heads(1, MAX_HEADER)
     )
 
 
@@ -32,13 +31,13 @@ def read(text: TextFile) -> tuple[Channel, ...]:
     """Read the three components."""
     keys: dict[str, tuple[int, str]] = {}
     first = 1
-    for first, line in enumerate(text.lines[:MAX_HEADER], start=1):
+    for first, line in enumerate(text.heads(1, MAX_HEADER), start=1):
         if line.strip() and not line.startswith("#"):
             break
-        if match := _KEY.match(line):
-            keys[match[1]] = (first, match[2])
+        if found := split_key(line):
+            keys[found[0].removeprefix("#")] = (first, found[1])
     spelling = keys.get("AmplitudeUnit", (1, "nothing"))
-    unit = UNITS.get(spelling[1].split(".")[0].strip().lower())
+    unit = acceleration_unit(spelling[1].split(".")[0])
     if unit is None:
         raise text.refusal(spelling[0], f"expected AmplitudeUnit: gal, found {spelling[1]!r}")
     sequence = _SEQUENCE.fullmatch(keys.get("DataSequence", (1, ""))[1])

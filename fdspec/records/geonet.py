@@ -23,7 +23,7 @@ _POINTS: Final = re.compile(r"Number of points\s+(\d{1,9})\s+Duration")
 
 def recognises(text: TextFile) -> bool:
     """Say whether the first line is GeoNet's title."""
-    return _TITLE.match(text.lines[0]) is not None
+    return _TITLE.match(text.head(1)) is not None
 
 
 def read(text: TextFile) -> tuple[Channel, ...]:
@@ -38,7 +38,7 @@ def _read_block(text: TextFile, first: int) -> tuple[Channel, int]:
     reals = parse_columns(text, line, line + REAL_LINES - 1, WIDTH, REAL_LINES * A_LINE)
     line += REAL_LINES
     counts = [int(value) for value in integers[COUNTS]]
-    points = _POINTS.match(text.lines[first + 8])
+    points = _POINTS.match(text.line(first + 9, "the number of points"))
     if points is None or int(points[1]) != counts[0] or counts[0] < 2 or min(counts) < 0:
         raise text.refusal(first + 9, f"expected 'Number of points {counts[0]}', as integer 34 says")
     dt = float(reals[STEP])
@@ -52,7 +52,7 @@ def _read_block(text: TextFile, first: int) -> tuple[Channel, int]:
             values = series if values is None else values
         line = last + 1
     assert values is not None  # noqa: S101  the first count is 2 or more
-    lines = [entry.strip() for entry in text.lines[first - 1 : first + TEXT_LINES]]
+    lines = [entry.strip() for entry in text.heads(first, first + TEXT_LINES)]
     direction = re.sub(r"^Component\s+", "", lines[12])
     channel = Channel(
         name=direction.split()[0] if direction else "",

@@ -1,11 +1,27 @@
-"""Numbers out of headers that are made of keys and values."""
+"""Headers that are made of keys and values."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
+from typing import Final
 
 from fdspec.records.numbers import parse_number
 from fdspec.records.textfile import TextFile
+from fdspec.records.vocabulary import plain
+
+_NO_LETTERS: Final = re.compile(r"[^a-z0-9]+")
+
+
+def split_key(line: str, mark: str = ":") -> tuple[str, str] | None:
+    """Return key and value of a line, without blanks around them; None when it has no key."""
+    key, found, value = line.partition(mark)
+    return (key.strip(), value.strip()) if found and key.strip() else None
+
+
+def canonical(key: str) -> str:
+    """Return a key as letters and digits alone: spelling, accents and punctuation of agencies vary."""
+    return _NO_LETTERS.sub(" ", plain(key)).strip()
 
 
 def number(text: TextFile, keys: Mapping[str, tuple[int, str]], key: str) -> float:

@@ -14,6 +14,13 @@ from fdspec.records.units import to_si
 
 NAME: Final = "K-NET or KiK-net"
 HEADER_LINES: Final = 17
+KEYS: Final = (
+    "Origin Time", "Depth. (km)", "Mag.", "Station Code", "Sampling Freq(Hz)", "Duration Time(s)",
+    "Scale Factor",
+    "Max. Acc. (gal)", "Last Correction",
+)  # fmt: skip
+"""Half of them tell the format: a header that lost one must not pass for rows of numbers under words."""
+
 DIRECTIONS: Final = MappingProxyType(
     {
         "1": "NS (borehole)",
@@ -30,13 +37,9 @@ _SCALE: Final = re.compile(r"([\d.]{1,12})\(gal\)/([\d.]{1,15})")
 
 
 def recognises(text: TextFile) -> bool:
-    """Say whether the header's first and fourteenth lines are NIED's."""
-    lines = text.lines
-    return (
-        len(lines) > HEADER_LINES
-        and lines[0].startswith("Origin Time")
-        and lines[13].startswith("Scale Factor")
-    )
+    """Say whether NIED's keys stand at the top."""
+    heads = text.heads(1, HEADER_LINES + 3)
+    return sum(any(head.startswith(key) for head in heads) for key in KEYS) >= len(KEYS) // 2
 
 
 def read(text: TextFile) -> tuple[Channel, ...]:
@@ -45,7 +48,10 @@ def read(text: TextFile) -> tuple[Channel, ...]:
     The counts have an offset that is no ground motion; the header's own maximum is without it. It is the mean
     of the record.
     """
-    values = [line[18:].strip() for line in text.lines[:HEADER_LINES]]
+    for number, key in ((1, KEYS[0]), (11, KEYS[4]), (12, KEYS[5]), (14, KEYS[6])):
+        if not text.line(number, repr(key)).startswith(key):
+            raise text.refusal(number, f"expected {key!r}, found {text.head(number).strip()[:60]!r}")
+    values = [line[18:].strip() for line in text.heads(1, HEADER_LINES)]
     rate = whole_number(text, {"Sampling Freq(Hz)": (11, values[10].removesuffix("Hz"))}, "Sampling Freq(Hz)")
     seconds = whole_number(text, {"Duration Time(s)": (12, values[11])}, "Duration Time(s)")
     match = _SCALE.fullmatch(values[13])

@@ -12,6 +12,7 @@ import numpy as np
 
 from fdspec.errors import RecordError
 from fdspec.records.channel import Channel
+from fdspec.records.given import Given
 from fdspec.records.units import to_si
 
 NAME: Final = "miniSEED"
@@ -24,8 +25,9 @@ def recognises(content: bytes) -> bool:
     return _FIRST_RECORD.match(content) is not None
 
 
-def read(content: bytes, name: str, unit: str | None) -> tuple[Channel, ...]:
+def read(content: bytes, name: str, given: Given) -> tuple[Channel, ...]:
     """Read one channel a trace; its unit must be given, for the file has none."""
+    unit = given.units
     if unit is None:
         raise RecordError(
             f"{name}: miniSEED does not say the unit of its numbers: give units when they are acceleration; "

@@ -2,39 +2,40 @@
 
 from __future__ import annotations
 
-import re
 from typing import Final
 
 import numpy as np
 
 from fdspec.records.channel import Channel
-from fdspec.records.keyed import number, whole_number
+from fdspec.records.keyed import number, split_key, whole_number
 from fdspec.records.numbers import parse_block
 from fdspec.records.textfile import TextFile
 from fdspec.records.units import to_si
 
 NAME: Final = "NSMN (Turkey)"
 MAX_HEADER: Final = 60
-COMPONENTS: Final = ("N-S", "E-W", "U-D")
+KEYS: Final = ("EARTHQUAKE DATE", "STATION ID", "NUMBER OF DATA", "SAMPLING INTERVAL", "RAW PGA VALUES")
+"""Three of them tell the format, too: without its title, a cut file would pass for rows under words."""
 
-_KEY: Final = re.compile(r"([A-Z][^:]*?)\s*:\s*(.*?)\s*$")
+COMPONENTS: Final = ("N-S", "E-W", "U-D")
 
 
 def recognises(text: TextFile) -> bool:
     """Say whether title or count are the network's: without its title, a cut file would pass for columns."""
-    title = text.lines[0].strip().upper().startswith("STRONG GROUND MOTION RECORDS OF TURK")
-    return title or any(line.lstrip().startswith("NUMBER OF DATA") for line in text.lines[:MAX_HEADER])
+    title = text.head(1).strip().upper().startswith("STRONG GROUND MOTION RECORDS OF TURK")
+    heads = text.heads(1, MAX_HEADER)
+    return title or sum(any(head.lstrip().startswith(key) for head in heads) for key in KEYS) >= 3
 
 
 def read(text: TextFile) -> tuple[Channel, ...]:
     """Read the three components."""
     keys: dict[str, tuple[int, str]] = {}
-    for line, content in enumerate(text.lines[:MAX_HEADER], start=1):
+    for line, content in enumerate(text.heads(1, MAX_HEADER), start=1):
         if tuple(content.split()) == COMPONENTS:
             heading = line
             break
-        if match := _KEY.match(content):
-            keys[match[1]] = (line, match[2])
+        if found := split_key(content):
+            keys[found[0]] = (line, found[1])
     else:
         raise text.refusal(
             None, f"expected the heading {'  '.join(COMPONENTS)} in the first {MAX_HEADER} lines"
@@ -46,9 +47,9 @@ def read(text: TextFile) -> tuple[Channel, ...]:
     rows = len(text.lines) - heading
     values = parse_block(text, heading + 1, len(text.lines))
     if rows != count or values.size != 3 * count:
-        found = f"{rows} rows with {values.size} values"
+        shown = f"{rows} rows with {values.size} values"
         raise text.refusal(
-            len(text.lines), f"expected {count} rows of 3, as NUMBER OF DATA says, found {found}"
+            len(text.lines), f"expected {count} rows of 3, as NUMBER OF DATA says, found {shown}"
         )
     event = keys.get("EARTHQUAKE DATE", (1, ""))[1]
     station = keys.get("STATION ID", (1, ""))[1]

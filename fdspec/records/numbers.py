@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from array import array
 from itertools import chain
 from typing import Final
 
@@ -11,6 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fdspec.records.textfile import TextFile
+
+CHUNK: Final = 5_000
+"""Lines read at once: lists of Python floats for all of them would take ten times the file's room."""
 
 _UNSIGNED: Final = r"(?:\d+\.?\d*|\.\d+)(?:[EeDd][+-]?\d{1,4})?"
 _NUMBER: Final = re.compile(rf"[+-]?{_UNSIGNED}", re.ASCII)
@@ -36,8 +40,15 @@ def parse_words(text: TextFile, number: int) -> list[float]:
 
 def parse_block(text: TextFile, first: int, last: int) -> NDArray[np.float64]:
     """Return all values of lines `first` to `last` (counted from 1, both included)."""
-    lines = text.lines[first - 1 : last]
-    block = "\n".join(lines)
+    last = min(last, len(text.lines))
+    parts = [
+        _parse_lines(text, start, min(start + CHUNK - 1, last)) for start in range(first, last + 1, CHUNK)
+    ]
+    return np.concatenate(parts) if parts else np.empty(0)
+
+
+def _parse_lines(text: TextFile, first: int, last: int) -> NDArray[np.float64]:
+    block = text.block(first, last)
     if _ONLY_NUMBERS.fullmatch(block):  # the common case, twenty times faster
         try:
             values = np.array([float(word) for word in block.split()])
@@ -46,7 +57,7 @@ def parse_block(text: TextFile, first: int, last: int) -> NDArray[np.float64]:
         else:
             if np.isfinite(values).all():
                 return values
-    rows = (parse_words(text, number) for number in range(first, min(last, len(text.lines)) + 1))
+    rows = (parse_words(text, number) for number in range(first, last + 1))
     return np.array(list(chain.from_iterable(rows)), dtype=np.float64)
 
 
@@ -55,7 +66,7 @@ def parse_columns(text: TextFile, first: int, last: int, width: int, count: int)
 
     Fixed columns are read by position: values may touch without a sign between them.
     """
-    values: list[float] = []
+    values = array("d")
     for number in range(first, min(last, len(text.lines)) + 1):
         line = text.lines[number - 1].rstrip()
         for start in range(0, len(line), width):
@@ -75,16 +86,21 @@ def _parse_word(text: TextFile, number: int, word: str) -> list[float]:
     value = parse_number(word)
     if value is not None:
         return [value]
-    values = []
+    parts = stuck_words(word)
+    if parts is None:
+        raise text.refusal(number, f"expected a finite number, found {word[:40]!r}")
+    return [parsed for part in parts if (parsed := parse_number(part)) is not None]
+
+
+def stuck_words(word: str) -> list[str] | None:
+    """Return the numbers that touch in a word, None when it can be read in another way or not at all."""
+    parts = []
     position = 0
     while match := _STUCK.match(word, position):
         if position and word[position] not in "+-":
-            break
-        value = parse_number(match.group())
-        if value is None:
-            break
-        values.append(value)
+            return None
+        if parse_number(match.group()) is None:
+            return None
+        parts.append(match.group())
         position = match.end()
-    if position < len(word) or not values:
-        raise text.refusal(number, f"expected a finite number, found {word[:40]!r}")
-    return values
+    return parts if parts and position == len(word) else None

@@ -1,137 +1,128 @@
-"""Columns of numbers: time and one or more accelerations, or accelerations alone with dt given.
-
-Header lines may stand above; they are searched for the unit, and for the names of the columns.
-"""
+"""Rows of numbers under words: columns with or without headings, or values that run on along the rows."""
 
 from __future__ import annotations
 
-import re
-from itertools import pairwise
+from dataclasses import replace
 from typing import Final
 
-import numpy as np
-from numpy.typing import NDArray
-
+from fdspec.errors import RecordError
+from fdspec.records import vocabulary as words
+from fdspec.records.block import Block, block_from
 from fdspec.records.channel import Channel
-from fdspec.records.numbers import parse_number
+from fdspec.records.columns import read_columns
+from fdspec.records.given import Given
+from fdspec.records.layout import ROWS, layout_of
+from fdspec.records.rows import MAX_HEADER, Dialect, dialect_of, first_row, fixed_width_of
+from fdspec.records.running import read_running
 from fdspec.records.textfile import TextFile
-from fdspec.records.time_step import uniform_step
-from fdspec.records.units import UNITS, to_si
 
 NAME: Final = "columns of text"
-MAX_HEADER: Final = 60
+MAX_BLOCKS: Final = 60
+TRAILER: Final = 3
+"""Lines behind the rows that the history shows."""
 
-_BRACKETED: Final = re.compile(r"[\[(]\s*([A-Za-z]+(?:/[A-Za-z]+(?:/[A-Za-z]+|\^?2)?)?)\s*[\])]")
-_STATION: Final = re.compile(r"\bstation\s*[:=]\s*(\S[^\r]*?)\s*$", re.IGNORECASE)
+NOTHING: Final = Given()
 
 
 def recognises(text: TextFile) -> bool:
-    """Say whether numbers in columns follow after at most 60 header lines."""
-    return _first_row(text) is not None
+    """Say whether rows of numbers follow after at most 200 header lines."""
+    dialect = dialect_of(text) or fixed_width_of(text)
+    return dialect is not None and first_row(text, dialect) is not None
 
 
-def read(text: TextFile, *, units: str | None = None, dt: float | None = None) -> tuple[Channel, ...]:
-    """Read one channel a column. `units` and `dt` must be given when the file does not say them."""
-    first = _first_row(text)
-    if first is None:
-        raise text.refusal(None, f"expected columns of numbers after at most {MAX_HEADER} header lines")
-    table, words = _table(text, first)
-    unit = _unit(text, first, units)
-    if table.shape[1] == 1:
-        if dt is None:
-            raise text.refusal(None, "one column has no times: give dt, in s")
-        step = dt
-    else:
-        step = uniform_step(text, first, words, dt)
-        table = table[:, 1:]
-    names = _names(text, first, table.shape[1])
-    event, station = _origin(text, first)
-    return tuple(
-        Channel(
-            name,
-            to_si(np.ascontiguousarray(column), unit),
-            step,
-            unit,
-            event=event,
-            station=station,
-            component=name if len(names) > 1 else "",
-        )
-        for name, column in zip(names, table.T, strict=True)
-    )
+def read(text: TextFile, given: Given = NOTHING) -> tuple[Channel, ...]:
+    """Read the accelerations. What the file does not say must be given."""
+    start = 1 if given.skip is None else given.skip + 1
+    if start > len(text.lines):
+        raise text.refusal(None, f"skip is given as {given.skip}, but the file has {len(text.lines)} lines")
+    dialect = dialect_of(text, start) or fixed_width_of(text, start)
+    try:
+        return _read(text, start, dialect, given)
+    except RecordError:
+        # Values may touch in a few rows alone, where they are largest.
+        touching = fixed_width_of(text, start) if dialect == Dialect() else None
+        if touching is None:
+            raise
+        return _read(text, start, touching, given)
 
 
-def _cells(line: str) -> list[str]:
-    """Split at semicolons (decimal commas allowed then), else at commas, else at blanks."""
-    if ";" in line:
-        return [cell.strip().replace(",", ".") for cell in line.strip().strip(";").split(";")]
-    if "," in line:
-        return [cell.strip() for cell in line.strip().rstrip(",").split(",")]
-    return line.split()
+def _read(text: TextFile, start: int, dialect: Dialect | None, given: Given) -> tuple[Channel, ...]:
+    if dialect is None:
+        raise text.refusal(None, f"expected rows of numbers after at most {MAX_HEADER} header lines")
+    text.take(None, f"rows of numbers parted by {dialect.said}")
+    told = given.skip is not None
+    found = block_from(text, start, dialect, told)
+    if found is None:
+        where = f"in line {start}, as skip says" if told else f"after at most {MAX_HEADER} header lines"
+        raise text.refusal(start if told else None, f"expected rows of numbers {where}")
+    block, behind = found
+    channels = list(_channels(text, block, given))
+    later, behind = _later_blocks(text, dialect, behind)
+    for other in later:
+        channels += _later_channels(text, other, given)
+    trailer = _trailer(text, behind)
+    return tuple(replace(channel, processing=(*channel.processing, *trailer)) for channel in channels)
 
 
-def _is_row(line: str) -> bool:
-    cells = _cells(line)
-    return bool(cells) and all(parse_number(cell) is not None for cell in cells)
+def _channels(text: TextFile, block: Block, given: Given) -> tuple[Channel, ...]:
+    if layout_of(text, block, given) == ROWS:
+        return (read_running(text, block, given),)
+    return read_columns(text, block, given)
 
 
-def _first_row(text: TextFile) -> int | None:
-    """Return the number of the first row of numbers: one that the next row resembles."""
-    lines = text.lines
-    for number, (line, following) in enumerate(pairwise(lines[: MAX_HEADER + 2]), start=1):
-        if _is_row(line) and _is_row(following) and len(_cells(line)) == len(_cells(following)):
-            return number
+def _later_blocks(text: TextFile, dialect: Dialect, behind: int) -> tuple[list[Block], int]:
+    """Return blocks of rows behind the first, each under words of its own, and the line behind the last."""
+    blocks: list[Block] = []
+    while behind <= len(text.lines):
+        found = block_from(text, behind, dialect)
+        if found is None:
+            further = _any_rows(text, dialect, behind)
+            if further is None:
+                break
+            raise text.refusal(further, "more rows of numbers, far behind the others: expected one block")
+        blocks.append(found[0])
+        behind = found[1]
+        if len(blocks) > MAX_BLOCKS:
+            raise text.refusal(behind, f"expected at most {MAX_BLOCKS} blocks of rows")
+    return blocks, behind
+
+
+def _any_rows(text: TextFile, dialect: Dialect, start: int) -> int | None:
+    number = start + MAX_HEADER
+    while number < len(text.lines):
+        first = first_row(text, dialect, number)
+        if first is not None:
+            return first
+        number += MAX_HEADER
     return None
 
 
-def _table(text: TextFile, first: int) -> tuple[NDArray[np.float64], list[str]]:
-    """Return all rows, and the words of the first column, whose digits say how exact the times are."""
-    width = len(_cells(text.lines[first - 1]))
-    rows: list[list[float]] = []
-    words: list[str] = []
-    for number, line in enumerate(text.lines[first - 1 :], start=first):
-        cells = _cells(line)
-        if len(cells) != width:
-            raise text.refusal(number, f"expected {width} columns as in line {first}, found {len(cells)}")
-        row = []
-        for cell in cells:
-            value = parse_number(cell)
-            if value is None:
-                raise text.refusal(number, f"expected a finite number, found {cell[:40]!r}")
-            row.append(value)
-        rows.append(row)
-        words.append(cells[0])
-    return np.array(rows, dtype=np.float64), words
+def _later_channels(text: TextFile, block: Block, given: Given) -> tuple[Channel, ...]:
+    """Read a later block; one of velocity or displacement is passed over, one that says nothing refused."""
+    said = block.stated.mentioned
+    measured = {unit.quantity for _, unit, _ in block.stated.units}
+    headed = {heading.quantity for heading in block.headings or ()}
+    if words.ACCELERATION in said or words.ACCELERATION in measured or words.ACCELERATION in headed:
+        return _channels(text, block, given)
+    others = (words.VELOCITY, words.DISPLACEMENT, words.SPECTRAL, words.PERIOD, words.FREQUENCY)
+    for quantity in others:
+        if quantity in said or quantity in measured or quantity in headed:
+            text.take(block.table.first, f"to line {block.table.last}: {quantity}, passed over")
+            return ()
+    raise text.refusal(
+        block.table.first, "a further block of rows, and no word above it says of what: expected one block"
+    )
 
 
-def _unit(text: TextFile, first: int, given: str | None) -> str:
-    """Return the unit that header or caller name; they must not contradict each other."""
-    header = "\n".join(text.lines[: first - 1])
-    found = {UNITS[word.lower()] for word in _BRACKETED.findall(header) if word.lower() in UNITS}
-    if given is not None:
-        if found and given not in found:
-            says = " and ".join(sorted(found))
-            raise text.refusal(None, f"units are given as {given}, but the header says {says}")
-        return given
-    if len(found) != 1:
-        says = "does not say" if not found else "contradicts itself on"
-        choice = "give units, one of g, m/s2, cm/s2, mm/s2"
-        raise text.refusal(None, f"the file {says} the unit of acceleration: {choice}")
-    return found.pop()
-
-
-def _origin(text: TextFile, first: int) -> tuple[str, str]:
-    """Return event and station: the first line above the headings, and what follows the word station."""
-    header = text.lines[: max(first - 2, 0)]
-    event = header[0].strip(" #.\t") if header else ""
-    stations = [match[1] for line in header if (match := _STATION.search(line))]
-    return event, stations[0] if stations else ""
-
-
-def _names(text: TextFile, first: int, count: int) -> list[str]:
-    """Return the names of the acceleration columns: those of the line above when it has one each."""
-    cells = _cells(text.lines[first - 2]) if first > 1 else []
-    if len(cells) in {count, count + 1}:
-        names = [re.sub(r"\s*[\[(].*", "", cell).strip(" #\"'") for cell in cells[-count:]]
-        if all(names) and len(set(names)) == count:
-            return names
-    return [str(k + 1) for k in range(count)]
+def _trailer(text: TextFile, behind: int) -> tuple[str, ...]:
+    lines = [
+        (n, " ".join(text.lines[n - 1][:200].split()))
+        for n in range(behind, min(len(text.lines), behind + 50) + 1)
+    ]
+    lines = [(number, line) for number, line in lines if line]
+    if not lines:
+        return ()
+    shown = "; ".join(f"line {number}: {line[:80]!r}" for number, line in lines[:TRAILER])
+    more = f" and {len(lines) - TRAILER} more" if len(lines) > TRAILER else ""
+    text.take(lines[0][0], "and below: a trailer, passed over")
+    return (f"on reading, lines behind the rows were passed over: {shown}{more}",)

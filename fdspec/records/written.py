@@ -2,66 +2,73 @@
 
 from __future__ import annotations
 
-import re
 from typing import Final
 
 import numpy as np
 
 from fdspec.model.motion import GroundMotion
 from fdspec.records.channel import Channel
-from fdspec.records.keyed import number, whole_number
+from fdspec.records.keyed import number, split_key, whole_number
 from fdspec.records.numbers import parse_number
+from fdspec.records.rows import Dialect, printed_times, table_from
 from fdspec.records.textfile import TextFile
 from fdspec.records.time_step import uniform_step
 
 NAME: Final = "columns of fdspec"
 TITLE: Final = "Ground motion written by fdspec"
+MAX_HEADER: Final = 400
+KEYS: Final = ("Source", "Scale factor", "Time step", "Samples")
+"""All but one of them tell the format, too."""
+
 HEADING: Final = "time, s; acceleration, m/s2"
 """Without the brackets of plain columns: when the title is damaged, no unit is told, and the file refused."""
 
-_KEY: Final = re.compile(r"([A-Z][a-z ]*):\s*(.*?)\s*$")
-
 
 def recognises(text: TextFile) -> bool:
-    """Say whether the first line is our title."""
-    return text.lines[0].strip() == TITLE
+    """Say whether title or keys are ours: a damaged title must not hide the keys."""
+    if text.head(1).strip() == TITLE:
+        return True
+    heads = text.heads(1, MAX_HEADER)
+    return sum(any(head.startswith(f"{key}:") for head in heads) for key in KEYS) >= len(KEYS) - 1
 
 
 def read(text: TextFile) -> tuple[Channel, ...]:
     """Read the one channel of the file."""
+    if text.head(1).strip() != TITLE:
+        raise text.refusal(1, f"expected {TITLE!r}, found {text.head(1).strip()[:60]!r}")
     keys: dict[str, tuple[int, str]] = {}
     steps = []
-    for line, content in enumerate(text.lines[1:], start=2):
+    for line in range(2, len(text.lines) + 1):
+        content = text.lines[line - 1]
         if content.strip() == HEADING:
             heading = line
             break
-        match = _KEY.match(content)
-        if match is None:
+        found = split_key(content)
+        if found is None or not found[0].isascii() or not found[0][0].isupper():
             raise text.refusal(line, f"expected 'Key: value' or {HEADING!r}, found {content.strip()[:60]!r}")
-        if match[1] == "Done":
-            steps.append(match[2])
+        if found[0] == "Done":
+            steps.append(found[1])
         else:
-            keys[match[1]] = (line, match[2])
+            keys[found[0]] = (line, found[1])
     else:
         raise text.refusal(len(text.lines), f"the file ends before {HEADING!r}")
     count = whole_number(text, keys, "Samples")
-    rows = [line.split() for line in text.lines[heading:]]
-    if len(rows) != count:
-        raise text.refusal(len(text.lines), f"expected {count} rows, as Samples says, found {len(rows)}")
-    values = np.empty(count)
-    for k, row in enumerate(rows):
-        parsed = [parse_number(word) for word in row]
-        if len(parsed) != 2 or parsed[0] is None or parsed[1] is None:
-            found = text.lines[heading + k].strip()[:60]
-            raise text.refusal(heading + 1 + k, f"expected a time and an acceleration, found {found!r}")
-        values[k] = parsed[1]
+    rows = len(text.lines) - heading
+    if rows != count:
+        raise text.refusal(len(text.lines), f"expected {count} rows, as Samples says, found {rows}")
+    table, behind = table_from(text, heading + 1, Dialect())
+    if behind <= len(text.lines) or table.width != 2 or table.ragged or table.short_last or table.skipped:
+        line = table.ragged or (table.last if table.short_last or behind > len(text.lines) else behind)
+        line = table.skipped[0] if table.skipped else line
+        shown = text.lines[line - 1].strip()[:60]
+        raise text.refusal(line, f"expected a time and an acceleration, found {shown!r}")
     dt = number(text, keys, "Time step")
     about = {key: value for key, (_, value) in keys.items()}
     return (
         Channel(
             name=about.get("Component", ""),
-            acceleration=values,
-            dt=uniform_step(text, heading + 1, [row[0] for row in rows], dt),
+            acceleration=np.ascontiguousarray(table.columns[:, 1]),
+            dt=uniform_step(text, printed_times(text, table, 0), dt),
             units="m/s2",
             event=about.get("Event", ""),
             station=about.get("Station", ""),

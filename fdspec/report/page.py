@@ -40,7 +40,8 @@ from fdspec.units import G
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.figure import Figure
+
+    from fdspec.figures.page import Figure
 
 FINER: Final = 4
 """Outputs of the detailed history for each sample of its record."""

@@ -15,7 +15,8 @@ from fdspec.units import G
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.figure import Figure
+
+    from fdspec.figures.page import Figure
 
 RECORD_FIGURES: Final = {
     "FSR1": 10,
@@ -127,14 +128,15 @@ def study_pictures(cube: xr.Dataset, given: Sequence[GroundMotion] = ()) -> list
     Returns
     -------
     list of Picture
-        4 and 6, the validation problems, which need no cube; 8 and 9, of those records of the cube
-        that are found; one a record, 10 to 18 for those of the study; the ensemble and the chart, of two
-        records that are found or more. Nothing is drawn or computed before `draw`. Records that are found
-        are drawn on pretensions close together, which are computed for the picture, others on the cube's.
+        4 and 6, the validation problems, and 7, the frame with its damper, which need no cube; 8 and 9, of
+        those records of the cube that are found; one a record, 10 to 18 for those of the study; the ensemble
+        and the chart, of two records that are found or more. Nothing is drawn or computed before `draw`.
+        Records that are found are drawn on pretensions close together, which are computed for the picture,
+        others on the cube's.
     """
     motions, _ = applied_motions(cube, given)
     finer = Finer(cube, motions)
-    pictures = [_figure_4(), _figure_6()]
+    pictures = [_figure_4(), _figure_6(), _figure_7()]
     if motions:
         pictures += [_figure_8(motions), _figure_9(cube, motions)]
     names = [str(name) for name in cube["record"].values]
@@ -258,6 +260,17 @@ def _figure_6() -> Picture:
     return Picture(
         "6", "figure-06-four-storeys", "four-storey steel frame, bare and with friction dampers", words, make
     )
+
+
+def _figure_7() -> Picture:
+    from fdspec.figures import sketch_caption
+
+    def make(title: str, caption: str) -> Figure:
+        from fdspec.figures import plot_sketch
+
+        return plot_sketch(title=title, caption=caption)
+
+    return Picture("7", "figure-07-damper", "frame with friction damper", sketch_caption(), make)
 
 
 def _figure_8(motions: Sequence[GroundMotion]) -> Picture:

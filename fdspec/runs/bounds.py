@@ -1,27 +1,17 @@
-"""What a run may take: its memory, disk and time are estimated before it begins, and refused where absurd.
+"""What a run may take of memory, disk and time: more than that is refused before it begins.
 
-A slipped decimal in a step makes 10^15 histories, a period in the wrong unit a million steps a sample.
-Estimates of time are rough, within a factor of five; the limit is far above what anybody waits for.
+A slipped decimal in a step makes 10^15 histories, a period in the wrong unit a million steps a sample.  The
+time is that of `fdspec.runs.cost`; its limit is far above what anybody waits for.
 """
 
 from __future__ import annotations
 
-import math
 import os
 import shutil
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
-import numpy as np
-from numpy.typing import NDArray
-
 from fdspec.errors import InvalidInput
-from fdspec.model.building import Building
-from fdspec.model.grid import Grid
-from fdspec.model.motion import GroundMotion
-
-FloatArray = NDArray[np.float64]
 
 VARIABLE: Final = "FDSPEC_CORE_HOURS"
 """The environment variable that sets the limit of core time, h."""
@@ -31,60 +21,6 @@ SWEEP_HOURS: Final = 1000.0
 
 HISTORY_HOURS: Final = 0.5
 """h that a single history may be expected to take: nothing is seen of it before it ends."""
-
-PER_SAMPLE: Final = 8e-9
-"""s of core time for one history and sample."""
-
-PER_STEP: Final = 9e-9
-"""s more for each further step within a sample, as floor and brace swing together."""
-
-PER_BRACE_STEP: Final = 1.5e-9
-"""s for each radian that the brace swings on its own while it slips, beyond BRACE_FREE of them a sample."""
-
-BRACE_FREE: Final = 10.0
-
-PER_STOREY: Final = 0.8e-6
-"""s for one history of an N-storey building, for each step and N^1.5."""
-
-PER_DEVICE: Final = 8e-6
-"""s for one history of a building with devices, for each step and N^1.5."""
-
-TRIED: Final = 50
-"""Points of an axis that estimates look at."""
-
-
-def seconds_of_sweep(grid: Grid, motions: Sequence[GroundMotion], certify: bool = True) -> list[float]:
-    """Core time of all histories under each motion, s, roughly."""
-    ratio, period = _spread(grid.stiffness_ratio)[:, np.newaxis], _spread(grid.period)
-    bare = 2.0 * np.pi / period
-    held = bare * np.sqrt((1.0 + ratio) / (1.0 + grid.brace_mass / grid.floor_mass))
-    brace = bare * np.sqrt(ratio * grid.floor_mass / grid.brace_mass) if grid.brace_mass > 0.0 else 0.0
-    found = []
-    for motion in motions:
-        steps = np.maximum(1.0, np.ceil(held * motion.dt)) - 1.0
-        if grid.devices:
-            found.append(float(steps.mean() + 1.0) * motion.n * grid.size * PER_DEVICE)
-            continue
-        swings = np.maximum(0.0, brace * motion.dt - BRACE_FREE)
-        rate = PER_SAMPLE + PER_STEP * steps + PER_BRACE_STEP * swings
-        found.append(float(rate.mean()) * motion.n * grid.size * (1.35 if certify else 1.0))
-    return found
-
-
-def seconds_of_history(building: Building, dt: float, samples: float) -> float:
-    """Core time of one history of this many samples, s, roughly."""
-    mass = np.concatenate([building.floor_mass, building.brace_mass])
-    brace = building.brace_stiffness
-    floor = np.abs(building.stiffness_matrix).sum(axis=1) + 2.0 * brace
-    floor[:-1] += 2.0 * brace[1:]
-    moving = mass > 0.0
-    fastest = float(np.sqrt(np.max(np.concatenate([floor, brace])[moving] / mass[moving])))
-    steps = max(1.0, fastest * dt)
-    if building.has_devices:
-        return samples * steps * PER_DEVICE * math.pow(building.n_storeys, 1.5)
-    if building.n_storeys == 1:
-        return samples * (PER_SAMPLE + PER_BRACE_STEP * steps)
-    return samples * steps * PER_STOREY * math.pow(building.n_storeys, 1.5)
 
 
 def refuse_long(seconds: float, default_hours: float, what: str) -> None:
@@ -137,12 +73,6 @@ def _disk_free(folder: Path) -> float | None:
         return float(shutil.disk_usage(folder).free)
     except OSError:
         return None
-
-
-def _spread(axis: FloatArray) -> FloatArray:
-    """Points of an axis that stand for all: in the middle of as many equal shares."""
-    count = min(axis.size, TRIED)
-    return axis[((np.arange(count) + 0.5) * axis.size / count).astype(np.int64)]
 
 
 def _size(n_bytes: float) -> str:

@@ -1,132 +1,104 @@
-"""What a sweep costs: core time of a history as a function of period, stiffness ratio, dt and transitions.
+"""What histories cost before any has run: the one place of every constant of core time.
 
-    core seconds = step * samples * steps + transition * transitions,
-
-where each sample takes steps = ceil(omega dt), omega = 2 pi / period sqrt((1 + SR) / (1 + m_d / m_f)) being
-the frequency, rad/s, of floor and brace moving as one.  The two constants are measured on this machine on
-small parts of the study.  They depend on the processor, on what runs beside, and on the study: histories that
-never slip share one, so that strong dampers cost next to nothing.
+Rough, within a factor of five on today's processors: for plans and refusals, never for results.  What a sweep
+costs on this machine, `fdspec.runs.pilot` measures.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
-from typing import Final, NamedTuple
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fdspec.engines.step_count import fastest_rate, parts_of_storeys, steps_of_building
+from fdspec.model.building import Building
 from fdspec.model.grid import Grid
 from fdspec.model.motion import GroundMotion
-from fdspec.runs.sweep import timed
+from fdspec.runs.columns import frames_of
 
 FloatArray = NDArray[np.float64]
 
-RECORDS: Final = 3
-"""Records that are tried, from the shortest to the longest."""
+PER_SAMPLE: Final = 8e-9
+"""s for one history of a sweep and sample; the four lanes of a core share it."""
 
-BANDS: Final = 6
-"""Bands of period that are tried, each on its own."""
+PER_STEP: Final = 9e-9
+"""s more for each further step within a sample, as floor and brace swing together."""
 
-RATIOS: Final = 8
-"""Stiffness ratios of one part at most; of all together one history is without brace."""
+PER_BRACE_STEP: Final = 1.5e-9
+"""s for each radian that the brace swings on its own while it slips, beyond BRACE_FREE of them a sample."""
 
-HISTORIES: Final = 400
-"""Histories of one part, about: enough to fill the lanes in which the kernels work."""
+BRACE_FREE: Final = 10.0
 
-FORCES: Final = 40
-"""Pretensions of one part at most."""
+CERTIFIED: Final = 1.35
+"""Times that a sweep takes with ``energy_error``."""
 
-REPEATS: Final = 2
-"""Times that a part is run; the shorter time counts, the longer had a disturbance in it."""
+PER_LONE_SAMPLE: Final = 60e-9
+"""s for one history of a single storey on its own, and sample."""
+
+PER_STOREY: Final = 0.12e-6
+"""s for one history of an N-storey building, for each step and N^1.5."""
+
+PER_DEVICE: Final = 2e-6
+"""s for one history of a building with devices, for each step and N^1.5."""
+
+STRAIN: Final = 4.0
+"""Times that a history takes with outputs of strain energy."""
+
+PER_SEARCH: Final = 20e-6
+"""s for the search of the best pretension of one frame, for each sample."""
+
+PER_OSCILLATOR: Final = 40e-9
+"""s for one history of a bilinear oscillator, for each sample."""
+
+TRIED: Final = 50
+"""Points of an axis that estimates look at."""
 
 
-class Measured(NamedTuple):
-    """A part of a study that was computed, and what it took."""
+def seconds_of_sweep(grid: Grid, motions: Sequence[GroundMotion], certify: bool = True) -> list[float]:
+    """Core time of all histories under each motion, s."""
+    part = replace(
+        grid,
+        stiffness_ratio=grid.stiffness_ratio[middles(grid.stiffness_ratio.size, TRIED)],
+        period=grid.period[middles(grid.period.size, TRIED)],
+    )
+    brace = fastest_rate(*_frames(part).T[3:])
+    found = []
+    for motion in motions:
+        steps = steps_per_sample(part, motion.dt).ravel()
+        if grid.devices:
+            found.append(float(steps.mean()) * motion.n * grid.size * PER_DEVICE)
+            continue
+        swings = np.maximum(0.0, brace * motion.dt - BRACE_FREE)
+        rate = PER_SAMPLE + PER_STEP * (steps - 1.0) + PER_BRACE_STEP * swings
+        found.append(float(rate.mean()) * motion.n * grid.size * (CERTIFIED if certify else 1.0))
+    return found
 
-    seconds: float
-    """Core time."""
-    samples: float
-    """Samples of all its histories."""
-    steps: float
-    """Steps of all its histories."""
-    transitions: float
 
-
-@dataclass(frozen=True)
-class Cost:
-    """Constants of the model, s, and how often phases change in the study."""
-
-    step: float
-    transition: float
-    transitions_per_sample: float
-    parts: tuple[Measured, ...] = ()
-
-    def of_sweep(
-        self, grid: Grid, motions: Sequence[GroundMotion], transitions: float | None = None
-    ) -> float:
-        """Core seconds of a sweep; transitions: of all histories, unless given as often as in the parts."""
-        samples, steps = work_of(grid, motions)
-        if transitions is None:
-            transitions = self.transitions_per_sample * samples
-        return self.step * steps + self.transition * transitions
+def seconds_of_history(building: Building, dt: float, samples: float) -> float:
+    """Core time of one history of this many samples, s."""
+    steps = steps_of_building(building, dt)
+    if building.has_devices:
+        return samples * steps * PER_DEVICE * math.pow(building.n_storeys, 1.5)
+    if building.n_storeys == 1:
+        return samples * (PER_LONE_SAMPLE + PER_BRACE_STEP * steps)
+    return samples * steps * PER_STOREY * math.pow(building.n_storeys, 1.5)
 
 
 def steps_per_sample(grid: Grid, dt: float) -> FloatArray:
-    """Steps that a history takes in each sample, (stiffness ratio, period)."""
-    held = (1.0 + grid.stiffness_ratio) / (1.0 + grid.brace_mass / grid.floor_mass)
-    omega = 2.0 * np.pi * np.sqrt(held)[:, np.newaxis] / grid.period
-    steps: FloatArray = np.maximum(1.0, np.ceil(omega * dt))
-    return steps
+    """Steps that a history takes in each sample, (stiffness ratio, period), pieces of slip not counted."""
+    steps = parts_of_storeys(_frames(grid), dt)
+    return steps.reshape(grid.stiffness_ratio.size, grid.period.size)
 
 
-def work_of(grid: Grid, motions: Sequence[GroundMotion]) -> tuple[float, float]:
-    """Return samples and steps of all histories of a sweep."""
-    n_f = grid.pretension.size
-    samples = float(sum(motion.n for motion in motions)) * grid.size
-    steps = sum(n_f * motion.n * float(steps_per_sample(grid, motion.dt).sum()) for motion in motions)
-    return samples, steps
-
-
-def measured(grid: Grid, motions: Sequence[GroundMotion], certify: bool = True) -> Cost:
-    """Compute small parts of a study here, on one core, and fit the model to what they take."""
-    found = []
-    for part, motion in parts_of(grid, motions):
-        tries = [timed(part, motion, certify) for _ in range(REPEATS)]
-        seconds = min(seconds for seconds, _ in tries)
-        found.append(Measured(seconds, *work_of(part, [motion]), tries[0][1]))
-    return fitted(found)
-
-
-def fitted(parts: Sequence[Measured]) -> Cost:
-    """Fit the constants, none negative, so that relative errors are smallest in the mean square."""
-    from scipy.optimize import nnls
-
-    rows = np.array([part[2:] for part in parts]) / np.array([[part.seconds] for part in parts])
-    scale = rows.max(axis=0, initial=0.0)
-    scale[scale == 0.0] = 1.0
-    constants, _ = nnls(rows / scale, np.ones(len(parts)))
-    step, transition = (constants / scale).tolist()
-    samples = sum(part.samples for part in parts)
-    per_sample = sum(part.transitions for part in parts) / samples
-    return Cost(step, transition, per_sample, tuple(parts))
-
-
-def parts_of(grid: Grid, motions: Sequence[GroundMotion]) -> Iterator[tuple[Grid, GroundMotion]]:
-    """Give small grids from every band of period, under short and long records."""
-    by_length = sorted(motions, key=lambda motion: motion.n)
-    chosen = {by_length[k].name: by_length[k] for k in _spread(len(by_length), RECORDS)}
-    ratio = grid.stiffness_ratio[_spread(grid.stiffness_ratio.size, RATIOS)]
-    pretension = grid.pretension[_spread(grid.pretension.size, FORCES)]
-    periods = max(1, HISTORIES // (ratio.size * pretension.size))
-    for motion in chosen.values():
-        for band in np.array_split(grid.period, min(BANDS, grid.period.size)):
-            period = band[_spread(band.size, periods)]
-            yield replace(grid, stiffness_ratio=ratio, pretension=pretension, period=period), motion
-
-
-def _spread(size: int, count: int) -> NDArray[np.int64]:
+def middles(size: int, count: int) -> NDArray[np.int64]:
     """Positions of at most `count` things of so many: in the middle of as many equal shares."""
     count = min(size, count)
     return ((np.arange(count) + 0.5) * size / count).astype(np.int64)
+
+
+def _frames(grid: Grid) -> FloatArray:
+    return frames_of(grid, np.arange(grid.stiffness_ratio.size * grid.period.size))

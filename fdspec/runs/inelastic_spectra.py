@@ -21,9 +21,11 @@ from fdspec.errors import InvalidInput
 from fdspec.kernels.bilinear.history import RESULTS
 from fdspec.model.motion import GroundMotion
 from fdspec.model.number_check import finite_number
+from fdspec.runs.cost import PER_OSCILLATOR
 from fdspec.runs.cube import assemble, named
 from fdspec.runs.spectra_variables import registry
-from fdspec.scheduling.threads import fan_out, plan
+from fdspec.scheduling.task import plan
+from fdspec.scheduling.threads import fan_out
 from fdspec.signals.spectra import SHORTEST
 
 if TYPE_CHECKING:
@@ -31,9 +33,6 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
-
-SECONDS_PER_SAMPLE: Final = 4e-8
-"""Core time of one history for each sample of its record, roughly; for plans, not for results."""
 
 HISTORIES_OF_A_SCAN: Final = 150
 """Histories that the search for one period's strengths takes, roughly."""
@@ -127,7 +126,7 @@ def inelastic_spectra(
         _collapse(collapse_ductility, hardening_ratio),
     )
     each = HISTORIES_OF_A_SCAN if kind == "ductility" else levels.size
-    seconds = [periods.size * each * motion.n * SECONDS_PER_SAMPLE for motion in records]
+    seconds = [periods.size * each * motion.n * PER_OSCILLATOR for motion in records]
     tasks = plan(periods.size, seconds, None, "period")
     parts = fan_out(
         partial(_work, oscillator, periods, kind, levels),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import logging
+import math
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
@@ -13,10 +14,10 @@ from typing import TYPE_CHECKING, Any, Final, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from fdspec.errors import DiskError, InvalidInput, StoreError
+from fdspec.errors import DiskError, StoreError
 from fdspec.locks import locked
 from fdspec.model.motion import GroundMotion
-from fdspec.scheduling.threads import Task, cores
+from fdspec.scheduling.task import Task, cores
 from fdspec.store import chunks
 from fdspec.store import open as open_cube
 from fdspec.store.blocks import Blocks, cut
@@ -41,9 +42,6 @@ SHARE: Final = 16
 LARGEST: Final = 4_000_000
 """Cells of a block: 32 MB of each variable."""
 
-COLUMNS: Final = ("stiffness_ratio", "period")
-"""The dims of a sweep's columns, the second fastest; a column is all pretensions of a pair."""
-
 log = logging.getLogger(__name__)
 
 
@@ -63,14 +61,17 @@ def sweep_into(
     compute: Compute,
     fan: Fan,
     *,
+    items: Sequence[str],
     seconds: float,
-    columns_per_task: int | None = None,
+    items_per_task: int | None = None,
     restart: bool = False,
 ) -> xr.Dataset:
     """Compute what is not yet finished of the cube in a store; return the cube, its numbers still on disk.
 
-    frame: coordinates and attributes of the cube; variables: those to be computed; compute: the values of a
-    block, given as columns, under a motion; seconds: core time of the whole cube, roughly.
+    frame: coordinates and attributes of the cube; variables: those to be computed, the status among them;
+    items: the dims along which work is shared out, beside the record, the last fastest, so that an item is a
+    column of a study, or a cell of buildings; compute: the values of a block, given as its items, under a
+    motion; seconds: core time of the whole cube, roughly.
 
     Raise BusyError when another process sweeps into the store.
     """
@@ -84,8 +85,9 @@ def sweep_into(
             variables,
             compute,
             fan,
+            items=tuple(items),
             seconds=seconds,
-            columns_per_task=columns_per_task,
+            items_per_task=items_per_task,
             restart=restart,
         )
 
@@ -97,8 +99,9 @@ def _sweep_into(
     compute: Compute,
     fan: Fan,
     *,
+    items: tuple[str, ...],
     seconds: float,
-    columns_per_task: int | None,
+    items_per_task: int | None,
     restart: bool,
 ) -> xr.Dataset:
     identity = identity_of(frame)
@@ -112,17 +115,19 @@ def _sweep_into(
             log.warning("%s of %s was damaged and is mended", name, path)
         log.info("%s: going on where it stopped", path)
     else:
-        blocks = plan_blocks({dim: frame.sizes[dim] for dim in _DIMS}, seconds, columns_per_task)
+        sizes = {dim: frame.sizes[dim] for dim in _dims(variables)}
+        blocks = plan_blocks(sizes, items, seconds, items_per_task)
         chunks.create(path, frame, variables, blocks, identity)
         log.info("%s: made, %d blocks of %s", path, len(blocks), dict(blocks.edges))
     todo = list(_unfinished(path, blocks, variables))
-    total = sum(map(blocks.histories, range(len(blocks))))
-    finished = total - sum(map(blocks.histories, todo))
+    status = _status(variables)
+    total = sum(blocks.cells(number, status) for number in range(len(blocks)))
+    finished = total - sum(blocks.cells(number, status) for number in todo)
     log.info("%d of %d histories are finished, %d blocks are left", finished, total, len(todo))
     if todo:
         names = tuple(map(str, frame["record"].values))
-        work = partial(_fill, path, blocks, names, tuple(variables), compute)
-        fan(work, tasks=[Task(*_columns(blocks, number)) for number in todo], finished=finished)
+        work = partial(_fill, path, blocks, items, names, tuple(variables), compute)
+        fan(work, tasks=[Task(*_items(blocks, items, number)) for number in todo], finished=finished)
     chunks.still_there(path)  # also under the last block
     chunks.tidy(path)
     if left := chunks.unfinished(path):
@@ -133,17 +138,19 @@ def _sweep_into(
     return open_cube(path)
 
 
-def plan_blocks(sizes: Mapping[str, int], seconds: float, columns_per_task: int | None) -> Blocks:
+def plan_blocks(
+    sizes: Mapping[str, int], items: Sequence[str], seconds: float, items_per_task: int | None
+) -> Blocks:
     """Cut the cube, whose work takes so many seconds of core time, into blocks of one record each."""
-    if columns_per_task is not None and columns_per_task < 1:
-        raise InvalidInput(f"columns_per_task must be at least 1, got {columns_per_task}")
-    total = float(np.prod([sizes[dim] for dim in _DIMS], dtype=float))
-    if columns_per_task is None:
+    total = math.prod(map(float, sizes.values()))
+    if items_per_task is None:
         length = min(LONGEST, max(SHORTEST, seconds / (SHARE * cores())))
         cells = min(LARGEST, total * length / seconds)
     else:
-        cells = columns_per_task * sizes["pretension"]
-    return cut(sizes, COLUMNS, cells, singly=("record",))
+        cells = items_per_task * math.prod(
+            size for dim, size in sizes.items() if dim not in ("record", *items)
+        )
+    return cut(sizes, items, cells, singly=("record",))
 
 
 def identity_of(frame: xr.Dataset) -> dict[str, Any]:
@@ -163,6 +170,8 @@ def differences(held: Mapping[str, Any], wanted: Mapping[str, Any]) -> list[str]
         there, here = held.get(name), wanted.get(name)
         if name == "records":
             told += _other_records(there or {}, here or {})
+        elif name == "buildings" and isinstance(there, dict) and isinstance(here, dict):
+            told += _other_buildings(there, here)
         elif there != here:
             told.append(f"{name} is {_short(there)} in the store, {_short(here)} in the study")
     return told
@@ -178,7 +187,26 @@ def _other_records(there: Mapping[str, str], here: Mapping[str, str]) -> list[st
     ]
 
 
-_DIMS: Final = ("record", "stiffness_ratio", "pretension", "period")
+def _other_buildings(there: Mapping[str, Any], here: Mapping[str, Any]) -> list[str]:
+    if there == here and list(there) != list(here):
+        return ["the buildings stand in another order"]
+    told = [f"building {name} is not in the study" for name in there if name not in here]
+    told += [f"building {name} is not in the store" for name in here if name not in there]
+    for name in there:
+        mine, other = here.get(name, there[name]), there[name]
+        parts = [part for part in {**other, **mine} if mine.get(part) != other.get(part)]
+        told += [f"building {name} has another {', '.join(parts)}"] if parts else []
+    return told
+
+
+def _status(variables: Sequence[Variable]) -> Variable:
+    return next(variable for variable in variables if variable.name == chunks.STATUS)
+
+
+def _dims(variables: Sequence[Variable]) -> tuple[str, ...]:
+    """Return the cube's dims: those of every history, and then what it has of its own, such as storeys."""
+    every = (_status(variables), *variables)
+    return tuple(dict.fromkeys(dim for variable in every for dim in variable.dims))
 
 
 def _agreed(path: Path, identity: Mapping[str, Any]) -> Blocks:
@@ -200,35 +228,36 @@ def _unfinished(path: Path, blocks: Blocks, variables: Sequence[Variable]) -> It
             log.warning("%s is damaged and will be computed again", chunk)
         if state is not chunks.State.WHOLE:
             # The status first: it says that the others are there.
-            status = chunks.chunk_path(
-                path, blocks, number, next(v for v in variables if v.name == chunks.STATUS)
-            )
+            status = chunks.chunk_path(path, blocks, number, _status(variables))
             for chunk in (status, *damaged):
                 chunks.clear(chunk)
         if state is not chunks.State.WHOLE:
             yield number
 
 
-def _columns(blocks: Blocks, number: int) -> tuple[int, IntArray]:
-    """Return a block's record and its columns, numbered over the whole cube."""
+def _items(blocks: Blocks, items: Sequence[str], number: int) -> tuple[int, IntArray]:
+    """Return a block's record and its items, numbered over the whole cube."""
     slices = blocks.slices(number)
-    slow, fast = (np.arange(blocks.sizes[dim])[slices[dim]] for dim in COLUMNS)
-    return slices["record"].start, (slow[:, np.newaxis] * blocks.sizes[COLUMNS[1]] + fast).ravel()
+    numbers = np.arange(math.prod(blocks.sizes[dim] for dim in items))
+    every = numbers.reshape([blocks.sizes[dim] for dim in items])
+    return slices["record"].start, every[tuple(slices[dim] for dim in items)].ravel()
 
 
 def _fill(
     path: Path,
     blocks: Blocks,
+    items: tuple[str, ...],
     records: tuple[str, ...],
     variables: Sequence[Variable],
     compute: Compute,
-    columns: IntArray,
+    numbers: IntArray,
     motion: GroundMotion,
 ) -> int:
     """Compute a block and write it; return how many of its histories have a status other than ok."""
-    slow, fast = np.unravel_index(int(columns[0]), [blocks.sizes[dim] for dim in COLUMNS])
-    at = {"record": records.index(motion.name), COLUMNS[0]: int(slow), "pretension": 0, COLUMNS[1]: int(fast)}
-    values = compute(columns, motion)
+    first = np.unravel_index(int(numbers[0]), [blocks.sizes[dim] for dim in items])
+    at = dict.fromkeys(blocks.sizes, 0) | dict(zip(items, map(int, first), strict=True))
+    at["record"] = records.index(motion.name)
+    values = compute(numbers, motion)
     chunks.write(path, blocks, blocks.number(at), values, variables)
     return int(np.count_nonzero(values["status"]))
 

@@ -18,7 +18,8 @@ from fdspec.errors import IntegrationError, InvalidInput
 from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
-from fdspec.runs.bounds import HISTORY_HOURS, refuse_large, refuse_long, seconds_of_history
+from fdspec.runs.bounds import HISTORY_HOURS, refuse_large, refuse_long
+from fdspec.runs.cost import seconds_of_history
 from fdspec.runs.plausible import warn_of_units
 from fdspec.store import provenance
 from fdspec.variables import HISTORY, STATUSES, describe

@@ -3,8 +3,8 @@
 import difflib
 import json
 import math
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, fields
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
 from decimal import Decimal
 from functools import partial
 from pathlib import Path
@@ -22,14 +22,15 @@ from pydantic import (
     create_model,
 )
 
-from fdspec.errors import RecordError, StudyError
+from fdspec.errors import InvalidInput, RecordError, StudyError
 from fdspec.model.grid import GRID_FIELDS, FloatArray, Grid, checked, contradictions
 from fdspec.model.motion import GroundMotion
 from fdspec.model.toml_lines import key_lines, line_of, parsed
 from fdspec.records import catalogue, load_record, read_record
+from fdspec.runs.record_scaling import SCALING_FIELDS, Scaling, scaling_of
 from fdspec.variables import CUBE, device_variables
 
-AXES: Final = ("stiffness_ratio", "pretension", "period")
+AXES: Final = ("stiffness_ratio", "pretension", "period", "intensity")
 
 STUDY_RECORDS: Final = ("FSR1", "FSR2", "FSR3", "FMR1", "FMR2", "FMR3", "FHR1", "FHR2", "FHR3")
 
@@ -51,7 +52,8 @@ MAX_AXIS: Final = 1_000_000
 class RecordFile:
     """Name a record file and what it does not say of itself; see `fdspec.read_record`.
 
-    `path` is relative to the study file's folder, `units` one of g, m/s2, cm/s2, mm/s2, `dt` in s.
+    `path` is relative to the study file's folder, `units` one of g, m/s2, cm/s2, mm/s2 and others, `dt` and
+    `resample_to` in s, `skip` a number of lines.
     """
 
     path: str
@@ -59,6 +61,10 @@ class RecordFile:
     dt: float | None = None
     channel: str | None = None
     name: str | None = None
+    skip: int | None = None
+    layout: str | None = None
+    resample_to: float | None = None
+    scaling: Scaling | None = None
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -73,6 +79,8 @@ class Study:
         Names of the catalogue, or record files.
     scaled : bool
         Whether the catalogue's stand-ins are scaled to the study's PGA.
+    scaling : Scaling or None
+        Of every record that has none of its own, after that.
     outputs : tuple of str or None
         Variables of the cube; None for all.
     certify : bool
@@ -84,6 +92,7 @@ class Study:
     grid: Grid = field(default_factory=Grid.study)
     records: tuple[str | RecordFile, ...] = STUDY_RECORDS
     scaled: bool = True
+    scaling: Scaling | None = None
     outputs: tuple[str, ...] | None = None
     certify: bool = True
     folder: Path = Path()
@@ -98,13 +107,7 @@ class Study:
             When the file cannot be used; one line of text for each mistake, with field and line number.
         """
         path = Path(path)
-        try:
-            text = path.read_text(encoding="utf-8")
-        except OSError as error:
-            raise StudyError(f"{path}: cannot be read ({error.strerror})") from None
-        except UnicodeDecodeError:
-            raise StudyError(f"{path}: is not a text file in UTF-8") from None
-        return cls.parse(text, name=str(path), folder=path.parent)
+        return cls.parse(text_of(path), name=str(path), folder=path.parent)
 
     @classmethod
     def parse(cls, text: str, *, name: str = "study", folder: Path = Path()) -> "Study":
@@ -117,16 +120,16 @@ class Study:
         try:
             values = dict(_StudyFile.model_validate(table))
         except ValidationError as error:
-            mistakes = [_mistake(detail["loc"], detail["type"], detail["msg"]) for detail in error.errors()]
+            mistakes = [
+                mistake_of(detail["loc"], detail["type"], detail["msg"], _StudyFile.model_fields)
+                for detail in error.errors()
+            ]
         else:
             mistakes = [((key,), f"{key}: {sentence}") for key, sentence in contradictions(values)]
         if mistakes:
             if all(where[0] != "records" for where, _ in mistakes):
-                mistakes += _unknown_records(table.get("records"), folder)
-            lines = key_lines(text)
-            placed = [(line_of(lines, where), sentence) for where, sentence in mistakes]
-            placed.sort(key=lambda one: one[0])
-            raise StudyError("\n".join(f"{name}, line {line}: {sentence}" for line, sentence in placed))
+                mistakes += unknown_records(table.get("records"), folder)
+            raise placed(name, text, mistakes)
         grid = Grid(**{key: values.pop(key) for key in GRID_FIELDS})
         return cls(grid=grid, folder=folder, **values)
 
@@ -138,37 +141,35 @@ class Study:
         RecordError
             When some cannot be used; one line of text for each.
         """
-        found, mistakes = [], []
-        for record in self.records:
-            try:
-                found.append(find_record(record, folder=self.folder, scaled=self.scaled))
-            except RecordError as error:
-                mistakes.append(str(error))
-        if mistakes:
-            raise RecordError("\n".join(mistakes))
-        return tuple(found)
+        return find_records(self.records, folder=self.folder, scaled=self.scaled, scaling=self.scaling)
 
     def to_toml(self) -> str:
         """Return the study as the text of a study file, every field named, to be edited."""
         grid = self.grid
         kinetic = grid.kinetic_friction_coefficient
+        outputs = OUTPUTS if self.outputs is None else self.outputs
         return f"""\
 # A study of fdspec: every (record, stiffness ratio, pretension, period). Units are SI.
 # A field left out has the value of the study on the nine records.
 
 # Names of the catalogue (fdspec records list) or record files, relative to this file; what a file does not
 # say of itself goes into a table: {{ path = "a.txt", units = "g", dt = 0.01, channel = "EW", name = "b" }}.
-records = {_records_text(self.records)}
+records = {records_text(self.records)}
 # Scale the stand-ins of the catalogue to the study's peak ground acceleration.
-scaled = {_bool(self.scaled)}
+scaled = {bool_text(self.scaled)}
+# Scale every record: {{ factor }}, {{ pga }}, {{ sa, period }} or {{ target, period }}; m/s2, s. Two periods
+# are the ends of a band; a record's own table may say the same of it alone, with pair = its other component.
+{_scaling_text(self.scaling)}
 
 # Axes: a list, {{ start, stop, step }} or {{ start, stop, num }}, ends included.
 # Brace over frame stiffness.
-stiffness_ratio = {_axis_text(grid.stiffness_ratio)}
+stiffness_ratio = {axis_text(grid.stiffness_ratio)}
 # N, the total normal force on the sliding surface; 0 slides freely, inf never.
-pretension = {_axis_text(grid.pretension)}
+pretension = {axis_text(grid.pretension)}
 # s, of the frame without its brace.
-period = {_axis_text(grid.period)}
+period = {axis_text(grid.period)}
+# Factors on all records, a further axis of the cube; left out, there is none.
+{"# intensity = [0.5, 1.0, 2.0]" if grid.intensity is None else f"intensity = {axis_text(grid.intensity)}"}
 
 # kg
 floor_mass = {grid.floor_mass!r}
@@ -187,10 +188,27 @@ brace_damping_ratio = {grid.brace_damping_ratio!r}
 # Devices of all frames alike; left out, there are none. m, N, N/m.
 {_device_lines(grid)}
 # Variables of the cube; left out, these. Only on request: {", ".join(ON_REQUEST)}.
-{"# " if self.outputs is None else ""}outputs = {_strings(OUTPUTS if self.outputs is None else self.outputs)}
+{"# " if self.outputs is None else ""}outputs = {strings_text(outputs)}
 # Check the energy balance of every history.
-certify = {_bool(self.certify)}
+certify = {bool_text(self.certify)}
 """
+
+
+def text_of(path: Path) -> str:
+    """Return what a study file says, or raise StudyError."""
+    try:
+        return path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise StudyError(f"{path}: cannot be read ({error.strerror})") from None
+    except UnicodeDecodeError:
+        raise StudyError(f"{path}: is not a text file in UTF-8") from None
+
+
+def placed(name: str, text: str, mistakes: Iterable[tuple[tuple[str | int, ...], str]]) -> StudyError:
+    """Return the error that tells each mistake with its line, in the order of the file."""
+    lines = key_lines(text)
+    told = sorted(((line_of(lines, where), sentence) for where, sentence in mistakes), key=lambda one: one[0])
+    return StudyError("\n".join(f"{name}, line {line}: {sentence}" for line, sentence in told))
 
 
 def is_catalogued(record: str) -> bool:
@@ -198,20 +216,60 @@ def is_catalogued(record: str) -> bool:
     return any(record.upper() == entry.name for entry in catalogue())
 
 
-def find_record(record: str | RecordFile, *, folder: Path = Path(), scaled: bool = True) -> GroundMotion:
+def find_record(
+    record: str | RecordFile, *, folder: Path = Path(), scaled: bool = True, scaling: Scaling | None = None
+) -> GroundMotion:
     """Load a record by its name in the catalogue or, when it is none, by its path relative to `folder`.
+
+    scaling: of a record that has none of its own.
 
     Raises
     ------
     RecordError
         When there is no such name and no such file, or the file cannot be used.
     """
-    if isinstance(record, str):
-        if is_catalogued(record) or not _is_path(record, folder):
-            return load_record(record, scaled=scaled)
-        record = RecordFile(record)
-    about = {key: value for key, value in asdict(record).items() if key != "path"}
-    return read_record(folder / record.path, **about)
+    own = None if isinstance(record, str) else record.scaling
+    scaling = own or scaling
+    motion = _found(record, folder, scaled)
+    if scaling is None:
+        return motion
+
+    def other(path: str, channel: str | None) -> GroundMotion:
+        about = RecordFile(path) if isinstance(record, str) else replace(record, path=path, name=None)
+        return _found(replace(about, channel=channel or about.channel), folder, scaled)
+
+    try:
+        return scaling.applied(motion, folder, other)
+    except InvalidInput as error:
+        raise RecordError(f"{motion.name}: {error}") from None
+
+
+def _found(record: str | RecordFile, folder: Path, scaled: bool) -> GroundMotion:
+    path = record if isinstance(record, str) else record.path
+    if is_catalogued(path) or not _is_path(path, folder):
+        return load_record(path, scaled=scaled)
+    given = {} if isinstance(record, str) else vars(record)
+    about = {key: value for key, value in given.items() if key not in ("path", "scaling")}
+    return read_record(folder / path, **about)
+
+
+def find_records(
+    records: Iterable[str | RecordFile],
+    *,
+    folder: Path = Path(),
+    scaled: bool = True,
+    scaling: Scaling | None = None,
+) -> tuple[GroundMotion, ...]:
+    """Load records in order; raise RecordError with one line for each that cannot be used."""
+    found, mistakes = [], []
+    for record in records:
+        try:
+            found.append(find_record(record, folder=folder, scaled=scaled, scaling=scaling))
+        except (InvalidInput, RecordError) as error:
+            mistakes.append(str(error))
+    if mistakes:
+        raise RecordError("\n".join(mistakes))
+    return tuple(found)
 
 
 def even_axis(spec: Mapping[str, Any]) -> FloatArray:
@@ -254,7 +312,7 @@ def _finite(value: object) -> bool:
         return False
 
 
-def _unknown_records(given: object, folder: Path) -> list[tuple[tuple[str | int, ...], str]]:
+def unknown_records(given: object, folder: Path) -> list[tuple[tuple[str | int, ...], str]]:
     """Mistakes of a study's records that can be seen without reading any."""
     found: list[tuple[tuple[str | int, ...], str]] = []
     for index, record in enumerate(given if isinstance(given, list) else []):
@@ -277,12 +335,14 @@ def _is_path(record: str, folder: Path) -> bool:
     return bool(Path(record).suffix) or len(Path(record).parts) > 1 or (folder / record).exists()
 
 
-def _mistake(where: tuple[str | int, ...], kind: str, message: str) -> tuple[tuple[str | int, ...], str]:
-    """Turn one of pydantic's complaints into a sentence that names the field."""
+def mistake_of(
+    where: tuple[str | int, ...], kind: str, message: str, known: Iterable[str]
+) -> tuple[tuple[str | int, ...], str]:
+    """Turn one of pydantic's complaints into a sentence that names the field, one of the known."""
     name = str(where[0])
     if kind == "extra_forbidden":
-        near = difflib.get_close_matches(name, _StudyFile.model_fields, n=1)
-        hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(_StudyFile.model_fields)}"
+        near = difflib.get_close_matches(name, known, n=1)
+        hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(known)}"
         return where, f"{name}: is not a field of a study; {hint}"
     if kind == "value_error":
         return where, f"{name}: {message.removeprefix('Value error, ')}"
@@ -304,25 +364,34 @@ def _field(name: str, value: object) -> object:
     return checked(name, value)
 
 
-def _record(value: object) -> str | RecordFile:
+def record_field(value: object) -> str | RecordFile:
+    """Return what a study file tells of a record; raise ValueError for what it cannot be."""
     if isinstance(value, str):
         return value
     if not isinstance(value, dict):
         raise ValueError(f"must be a name, a path or a table, got {value!r:.60}")
-    known = [field.name for field in fields(RecordFile)]
-    if unknown := [key for key in value if key not in known]:
-        raise ValueError(f"unknown key {unknown[0]!r} of a record; known are {', '.join(known)}")
+    known = [field.name for field in fields(RecordFile) if field.name != "scaling"]
+    if unknown := [key for key in value if key not in known and key not in SCALING_FIELDS]:
+        raise ValueError(
+            f"unknown key {unknown[0]!r} of a record; known are {', '.join((*known, *SCALING_FIELDS))}"
+        )
+    scaling = {key: part for key, part in value.items() if key in SCALING_FIELDS}
+    value = {key: part for key, part in value.items() if key in known}
     if "path" not in value:
         raise ValueError("a record given as a table needs path, its file")
     for key, part in value.items():
-        if key == "dt" and not (_finite(part) and part > 0):
-            raise ValueError(f"dt of a record must be positive seconds, got {part!r:.60}")
-        if key != "dt" and not isinstance(part, str):
+        seconds = key in {"dt", "resample_to"}
+        if seconds and not (_finite(part) and part > 0):
+            raise ValueError(f"{key} of a record must be positive seconds, got {part!r:.60}")
+        if key == "skip" and (isinstance(part, bool) or not isinstance(part, int) or part < 0):
+            raise ValueError(f"skip of a record must be a whole number of lines, 0 or more, got {part!r:.60}")
+        if not seconds and key != "skip" and not isinstance(part, str):
             raise ValueError(f"{key} of a record must be a string, got {part!r:.60}")
-    return RecordFile(**value)
+    return RecordFile(**value, scaling=scaling_of(scaling) if scaling else None)
 
 
-def _distinct(values: tuple[Any, ...]) -> tuple[Any, ...]:
+def distinct(values: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return the values; raise ValueError where there are none, or one comes twice."""
     if not values:
         raise ValueError("must name at least one, is empty")
     seen = set()
@@ -334,7 +403,11 @@ def _distinct(values: tuple[Any, ...]) -> tuple[Any, ...]:
 
 
 def _output(value: str) -> str:
-    known = (*OUTPUTS, *DEMANDS, *ON_REQUEST)
+    return known_output(value, (*OUTPUTS, *DEMANDS, *ON_REQUEST))
+
+
+def known_output(value: str, known: Sequence[str]) -> str:
+    """Return the name of an output; raise ValueError, with what was meant, where it is none of the known."""
     if value not in known:
         near = difflib.get_close_matches(value, known, n=1)
         hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
@@ -349,14 +422,15 @@ def _study_file() -> type[BaseModel]:
         name: (Annotated[Any, PlainValidator(partial(_field, name))], getattr(study, name))
         for name in GRID_FIELDS
     }
-    records = Annotated[tuple[Annotated[Any, PlainValidator(_record)], ...], AfterValidator(_distinct)]
+    records = Annotated[tuple[Annotated[Any, PlainValidator(record_field)], ...], AfterValidator(distinct)]
     output = Annotated[StrictStr, AfterValidator(_output)]
-    outputs = Annotated[tuple[output, ...], AfterValidator(_distinct)]
+    outputs = Annotated[tuple[output, ...], AfterValidator(distinct)]
     return create_model(
         "StudyFile",
         __config__=ConfigDict(extra="forbid"),
         records=(records, STUDY_RECORDS),
         scaled=(StrictBool, True),
+        scaling=(Annotated[Any, PlainValidator(scaling_of)], None),
         outputs=(outputs | None, None),
         certify=(StrictBool, True),
         **scalars_and_axes,
@@ -385,7 +459,7 @@ def _device_lines(grid: Grid) -> str:
     )
 
 
-def _axis_text(axis: FloatArray) -> str:
+def axis_text(axis: FloatArray) -> str:
     """Write an axis as { start, stop, step } where that gives the same floats, else as a list."""
     if axis.size > 3:
         start, second, stop = (Decimal(repr(float(axis[k]))) for k in (0, 1, -1))
@@ -399,28 +473,44 @@ def _axis_text(axis: FloatArray) -> str:
     return "[" + ", ".join(repr(float(value)) for value in axis) + "]"
 
 
-def _records_text(records: tuple[str | RecordFile, ...]) -> str:
+def records_text(records: tuple[str | RecordFile, ...]) -> str:
+    """Write a TOML list of records."""
     return (
-        "[" + ", ".join(_string(one) if isinstance(one, str) else _table_text(one) for one in records) + "]"
+        "["
+        + ", ".join(string_text(one) if isinstance(one, str) else _table_text(one) for one in records)
+        + "]"
     )
 
 
 def _table_text(record: RecordFile) -> str:
-    given = {key: value for key, value in asdict(record).items() if value is not None}
+    given = {key: value for key, value in vars(record).items() if value is not None and key != "scaling"}
+    return _inline({**given, **({} if record.scaling is None else record.scaling.given)})
+
+
+def _scaling_text(scaling: Scaling | None) -> str:
+    if scaling is None:
+        return "# scaling = { sa = 4.0, period = [0.2, 1.5] }"
+    return f"scaling = {_inline(scaling.given)}"
+
+
+def _inline(given: Mapping[str, Any]) -> str:
     parts = [
-        f"{key} = {_string(value) if isinstance(value, str) else repr(value)}" for key, value in given.items()
+        f"{key} = {string_text(value) if isinstance(value, str) else repr(value)}"
+        for key, value in given.items()
     ]
     return "{ " + ", ".join(parts) + " }"
 
 
-def _string(value: str) -> str:
+def string_text(value: str) -> str:
     """Write a TOML string: JSON's escapes are TOML's, but for the delete character."""
     return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007F")
 
 
-def _strings(values: tuple[str, ...]) -> str:
-    return "[" + ", ".join(map(_string, values)) + "]"
+def strings_text(values: tuple[str, ...]) -> str:
+    """Write a TOML list of strings."""
+    return "[" + ", ".join(map(string_text, values)) + "]"
 
 
-def _bool(value: bool) -> str:
+def bool_text(value: bool) -> str:
+    """Write a TOML boolean."""
     return "true" if value else "false"

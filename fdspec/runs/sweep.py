@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
@@ -17,33 +16,25 @@ from numpy.typing import ArrayLike, NDArray
 
 from fdspec.errors import InvalidInput
 from fdspec.methods import EXACT, Method, chosen_method
-from fdspec.methods.batch import integrate_by_method
-from fdspec.model.building import Building, ModalDamping
 from fdspec.model.grid import Grid
 from fdspec.model.motion import GroundMotion
-from fdspec.runs.after import NOTHING, After, zero_or_positive
-from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_sweep
+from fdspec.runs.after import After, zero_or_positive
+from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long
+from fdspec.runs.columns import DEMANDS, STRAIN, Columns, demands_of, rows_of, run_columns, warm
+from fdspec.runs.cost import seconds_of_sweep
 from fdspec.runs.cube import assemble, chosen, named
+from fdspec.runs.pilot import probed
 from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.progress import Shown
-from fdspec.scheduling.threads import Task, cores, fan_out, plan
-from fdspec.variables import CUBE, STUDY_DIMS, device_variables
+from fdspec.scheduling.task import Task, plan, require_per_task
+from fdspec.scheduling.threads import fan_out
+from fdspec.variables import CUBE, INTENSITY_CUBE, STUDY_DIMS, Registry
 
 if TYPE_CHECKING:
-    from distributed import Client
+    from fdspec.scheduling.task import Client
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
-Columns = tuple[FloatArray, FloatArray, FloatArray]
-
-SECONDS_PER_SAMPLE: Final = 8e-9
-"""Core time of one history for each sample of its record, roughly; for plans, not for results."""
-
-WINDOW: Final = 512
-"""Samples of the record for which histories are computed to see what they cost."""
-
-PROBE: Final = 0.2
-"""s of core time after which enough is known of the cost."""
 
 BARE: Final = {
     "elastic_acceleration": "peak_acceleration",
@@ -61,11 +52,8 @@ BRACED: Final = {
 }
 """Output over (record, stiffness_ratio, period) -> what it is where the damper never slips."""
 
-STRAIN: Final = ("strain_energy_area", "peak_strain_energy")
-"""Results of a pass of their own over every history."""
-
-DEMANDS: Final = tuple(v.name for v in device_variables(()))
-"""Outputs of frames with devices alone."""
+COLUMNS: Final = ("stiffness_ratio", "period")
+"""The dims of a sweep's columns, the second fastest; a column is all pretensions of a pair."""
 
 RESPONSES: Final = tuple(v.name for v in CUBE.values() if v.dims == STUDY_DIMS and v.name not in DEMANDS)
 _KNOWN: Final = (*RESPONSES, *BARE, *BRACED)
@@ -95,6 +83,7 @@ def sweep(
     slot_length: float | None = None,
     slot_stiffness: float | None = None,
     recentring_stiffness: float | None = None,
+    intensity: ArrayLike | None = None,
     free_vibration: float = 0.0,
     at_rest: bool = False,
     outputs: Iterable[str] | None = None,
@@ -127,19 +116,22 @@ def sweep(
         Of the frame without its brace, and of the brace on its own.
     friction_coefficient, kinetic_friction_coefficient, normal_force_factor : float
         Slip force = friction_coefficient * normal_force_factor * pretension.
-    storey_height, yield_shear, hardening_ratio, gravity_load, slot_length, slot_stiffness,
+    storey_height, yield_shear, hardening_ratio, gravity_load, slot_length, slot_stiffness, \
     recentring_stiffness : float, optional
         Devices of all frames alike, as for `fdspec.Building`: columns that yield, gravity, slots, re-centring
         springs.  With them each history is integrated by itself, a thousand times slower, the cube has the
         demands of `fdspec.variables.device_variables` too, and a history may end with the status
         ``collapsed``.  The limits that ride along stay those of the elastic frame.
+    intensity : array_like, optional
+        Factors on the ground motions, positive, strictly increasing: adds the dim ``intensity`` after
+        ``record``.  What is told of the records, ``pga`` among it, stays that of factor 1.
     free_vibration : float, s
         How long each history goes on after its motion's end, the ground at rest; rounded up to whole steps of
         the motion.
     at_rest : bool
         Go on from there until the energy left can make no damper slip, and give ``residual_displacement`` and
-        ``residual_slip`` where the frame comes to rest: 0 where a damper has no friction. Peaks are those up
-        to where nothing slips any more. A history that takes more than 2 million steps to get there has the
+        ``residual_slip`` where the frame comes to rest: 0 where a damper has no friction.  Peaks are those up
+        to where nothing slips any more.  A history that takes more than 2 million steps to get there has the
         status ``transition_cap_reached``.
     outputs : iterable of str, optional
         Variables of the cube; unless given, all but those of `ON_REQUEST`.
@@ -166,7 +158,8 @@ def sweep(
     -------
     xarray.Dataset
         Dims (record, stiffness_ratio, pretension, period); variables, units and meanings are those
-        of `fdspec.variables.CUBE`.  With a store it is read from there when it is used.
+        of `fdspec.variables.CUBE`, with intensities of `fdspec.variables.INTENSITY_CUBE`.  With a store it
+        is read from there when it is used.
 
     Raises
     ------
@@ -179,6 +172,10 @@ def sweep(
     -----
     The frame is the study's example (its Figure 7): k_f = floor_mass (2 pi / period)^2,
     k_d = stiffness_ratio k_f; equations (2) to (7).
+
+    A frame whose only strength is its slip force F is the same frame at every intensity s: the response to
+    s a_g under F is s times that to a_g under F / s, energies s^2 times, changes of phase the same.  So the
+    exact method computes intensities as further slip forces; other methods run the scaled record.
     """
     grid = Grid(
         stiffness_ratio=stiffness_ratio,  # type: ignore[arg-type]
@@ -198,6 +195,7 @@ def sweep(
         slot_length=slot_length,
         slot_stiffness=slot_stiffness,
         recentring_stiffness=recentring_stiffness,
+        intensity=intensity,  # type: ignore[arg-type]
     )
     motions = named(motions)
     usual = usual_outputs(grid)
@@ -221,17 +219,18 @@ def sweep(
     if at_rest and (other is not None or grid.devices):
         what = f"method {other.name!r}" if other is not None else "frames with devices"
         raise InvalidInput(f"at_rest is for the exact method and dampers alone, not for {what}")
-    run = partial(_run_columns, grid, certify, bool(strain), other, after=after)
+    run = partial(run_columns, grid, certify, bool(strain), other, after=after)
     fan = partial(
         fan_out,
         motions=motions,
-        each=n_f,
-        warm=_warm,
+        each=n_f * grid.intensities.size,
+        warm=warm,
         workers=workers,
         scheduler=scheduler,
         client=client,
         progress=progress,
     )
+    registry = registry_for(grid)
     cube_of = partial(
         assemble,
         axes={
@@ -240,8 +239,9 @@ def sweep(
             "period": grid.period,
             "slip_force": grid.slip_force,
             "kinetic_slip_force": grid.kinetic_slip_force,
+            **({} if grid.intensity is None else {"intensity": grid.intensity}),
         },
-        registry=CUBE,
+        registry=registry,
         motions=motions,
         title="Peak response of single-storey frames with friction dampers",
         parameters={
@@ -253,75 +253,42 @@ def sweep(
         },
         command="fdspec.sweep",
     )
+    require_per_task(columns_per_task, "columns_per_task")
     if store is not None:
         from fdspec.runs.resumable import sweep_into
 
         return sweep_into(
             store,
             cube_of({}),
-            [CUBE[name] for name in wanted],
+            [registry[name] for name in wanted],
             partial(_block, grid, run, wanted),
             fan,
+            items=COLUMNS,
             seconds=sum(seconds)
             if columns_per_task
-            else sum(_measured(motions, grid, certify, bool(strain), other)),
-            columns_per_task=columns_per_task,
+            else sum(probed(motions, grid, certify, bool(strain), other)),
+            items_per_task=columns_per_task,
             restart=restart,
         )
     tasks = plan(n_sr * n_t, seconds, columns_per_task, "columns_per_task")
     return cube_of(_variables(grid, len(motions), tasks, fan(run, tasks=tasks), wanted))
 
 
-def measured(motions: Sequence[GroundMotion], grid: Grid, certify: bool = True) -> float:
-    """Wall seconds that a sweep takes on this machine's cores, from some of its histories, computed here.
-
-    They are taken around the strongest shaking, so that it is rather too much.
-    """
-    return sum(_measured(motions, grid, certify, False, None)) / cores()
-
-
-def _measured(
-    motions: Sequence[GroundMotion], grid: Grid, certify: bool, strain: bool, other: Method | None
-) -> list[float]:
-    """Core seconds of the histories of each motion."""
-    _warm()
-    longest = max(motions, key=lambda motion: motion.n)
-    peak = int(np.argmax(np.abs(longest.acceleration)))
-    first = max(0, min(peak - WINDOW // 4, longest.n - WINDOW))
-    window = GroundMotion(longest.acceleration[first : first + WINDOW], longest.dt, name="window")
-    nothing = GroundMotion(np.zeros(2), longest.dt, name="nothing")
-    ratio = grid.stiffness_ratio[_shares(grid.stiffness_ratio.size, 2)]
-    pretension = grid.pretension[_shares(grid.pretension.size, 8)]
-    period = grid.period[_shares(grid.period.size, 6)]
-    part = replace(grid, stiffness_ratio=ratio, pretension=pretension, period=period)
-    spent, histories = 0.0, 0
-    for k in range(period.size):  # from the shortest, which costs most
-        columns = np.arange(k, ratio.size * period.size, period.size)
-        for motion, sign in ((nothing, -1), (window, 1)):  # what a call costs by itself is no history's
-            started = time.thread_time()
-            _run_columns(part, certify, strain, other, columns, motion)
-            spent += sign * (time.thread_time() - started)
-        histories += columns.size * pretension.size
-        if spent > PROBE:
-            break
-    each = max(spent / (histories * window.n), SECONDS_PER_SAMPLE / 4.0)
-    return [each * motion.n * grid.size for motion in motions]
-
-
-def _shares(size: int, count: int) -> IntArray:
-    """Positions in the middle of equal shares, at most so many."""
-    count = min(size, count)
-    return ((np.arange(count) + 0.5) * size / count).astype(np.int64)
-
-
 def bytes_of(motions: Sequence[GroundMotion], grid: Grid, outputs: Iterable[str]) -> dict[str, int]:
     """Bytes of each variable of the cube."""
     n_sr, n_f, n_t = grid.shape
     lengths = {"record": len(motions), "stiffness_ratio": n_sr, "pretension": n_f, "period": n_t}
+    lengths["intensity"] = grid.intensities.size
+    registry = registry_for(grid)
     return {
-        name: math.prod(lengths[dim] for dim in CUBE[name].dims) * np.dtype(CUBE[name].dtype).itemsize
+        name: math.prod(lengths[dim] for dim in registry[name].dims) * np.dtype(CUBE[name].dtype).itemsize
         for name in outputs
     }
+
+
+def registry_for(grid: Grid) -> Registry:
+    """Return the variables of this grid's cube."""
+    return CUBE if grid.intensity is None else INTENSITY_CUBE
 
 
 def refuse_endless(
@@ -341,108 +308,9 @@ def refuse_endless(
     refuse_long(seconds, SWEEP_HOURS, what)
 
 
-def timed(grid: Grid, motion: GroundMotion, certify: bool = True) -> tuple[float, int]:
-    """Compute all columns of a small grid in this thread; return its core seconds and changes of phase."""
-    from fdspec.kernels.storey.history import RESULTS
-
-    _warm()
-    columns = np.arange(grid.stiffness_ratio.size * grid.period.size)
-    started = time.thread_time()
-    results, _, _ = _run_columns(grid, certify, False, None, columns, motion)
-    return time.thread_time() - started, int(results[:, :, RESULTS.index("transitions")].sum())
-
-
 def usual_outputs(grid: Grid) -> tuple[str, ...]:
     """Return what a sweep computes unless it is told otherwise."""
-    return (*OUTPUTS, *_demands(grid))
-
-
-def _demands(grid: Grid) -> tuple[str, ...]:
-    """Return what only a cube of frames with devices or of known height has."""
-    if not grid.devices:
-        return () if grid.storey_height is None else ("peak_drift_ratio",)
-    return tuple(name for name in DEMANDS if name != "peak_drift_ratio" or grid.storey_height is not None)
-
-
-def _warm() -> None:
-    import fdspec.engines.batch  # noqa: F401
-
-
-def _frames(grid: Grid, columns: IntArray) -> FloatArray:
-    """Rows of floor mass, damping, stiffness, brace mass, damping, stiffness for these pairs."""
-    ratio, period = np.unravel_index(columns, (grid.stiffness_ratio.size, grid.period.size))
-    stiffness = grid.floor_mass * (2.0 * np.pi / grid.period[period]) ** 2
-    brace = grid.stiffness_ratio[ratio] * stiffness
-    rows = np.empty((columns.size, 6))
-    rows[:, 0] = grid.floor_mass
-    rows[:, 1] = 2.0 * grid.damping_ratio * np.sqrt(stiffness * grid.floor_mass)
-    rows[:, 2] = stiffness
-    rows[:, 3] = grid.brace_mass
-    rows[:, 4] = 2.0 * grid.brace_damping_ratio * np.sqrt(brace * grid.brace_mass)
-    rows[:, 5] = brace
-    return rows
-
-
-def _run_columns(
-    grid: Grid,
-    certify: bool,
-    strain: bool,
-    other: Method | None,
-    columns: IntArray,
-    motion: GroundMotion,
-    after: After = NOTHING,
-) -> Columns:
-    """Integrate some (stiffness ratio, period) pairs: all pretensions, never slipping, without brace.
-
-    Each in the order of RESULTS; where wanted, those of STRAIN follow, save of braced frames.
-    """
-    from fdspec.engines.batch import integrate_columns
-
-    frames = _frames(grid, columns)
-    exact = slice(None) if other is None and not grid.devices else slice(0)
-    slip_force, kinetic = grid.slip_force, grid.kinetic_slip_force
-    free_steps = after.free_steps(motion)
-    integrate = partial(integrate_columns, free_steps=free_steps, at_rest=after.at_rest)
-    braced, results = integrate(frames, slip_force[exact], kinetic[exact], motion, certify=certify)
-    if grid.devices:
-        results = _run_devices(grid, frames, motion, free_steps)
-    if other is not None:
-        results = integrate_by_method(other, frames, slip_force, kinetic, motion, free_steps)
-    bare = frames[columns < grid.period.size].copy()  # the first stiffness ratio's pairs stand for all
-    bare[:, 3:] = 0.0
-    free, _ = integrate(bare, np.empty(0), np.empty(0), motion, certify=False)
-    if strain:
-        from fdspec.engines.strain import strain_of_columns
-
-        never = np.array([np.inf]), np.array([0.0])
-        added = strain_of_columns(frames, grid.slip_force, grid.kinetic_slip_force, motion)
-        results = np.concatenate([results, added], axis=-1)
-        free = np.concatenate([free, strain_of_columns(bare, *never, motion)[:, 0]], axis=-1)
-    return results, braced, free
-
-
-def _run_devices(grid: Grid, frames: FloatArray, motion: GroundMotion, free_steps: int) -> FloatArray:
-    """Integrate frames (m, 6) with devices, all pretensions: (m, n_f, results) in the order of `_rows`."""
-    from fdspec.engines.devices import peaks_of
-
-    rows = _rows(grid)
-    results = np.empty((frames.shape[0], grid.pretension.size, len(rows)))
-    for i, (m_f, _, k_f, m_d, c_d, k_d) in enumerate(frames):
-        for j, forces in enumerate(zip(grid.slip_force, grid.kinetic_slip_force, strict=True)):
-            damping = ModalDamping(grid.damping_ratio)
-            building = Building(m_f, k_f, m_d, k_d, *forces, damping, c_d, **grid.devices)
-            storey, whole = peaks_of(building, motion, free_steps)
-            found = {name: float(values[0]) for name, values in storey.items()} | whole
-            found["peak_base_shear"] = found["peak_storey_shear"]
-            results[i, j] = [found[name] for name in rows]
-    return results
-
-
-def _rows(grid: Grid) -> tuple[str, ...]:
-    """Return the results of a history, in their order."""
-    from fdspec.kernels.storey.history import RESULTS
-
-    return (*RESULTS, *_demands(grid)) if grid.devices else (*RESULTS, *STRAIN)
+    return (*OUTPUTS, *demands_of(grid))
 
 
 def _block(
@@ -467,24 +335,29 @@ def _variables(
     wanted: Sequence[str],
 ) -> dict[str, NDArray[Any]]:
     """Put what the tasks returned where it stands in the cube."""
-    rows = _rows(grid)
+    rows = rows_of(grid)
     n_sr, n_f, n_t = grid.shape
+    n_i = grid.intensities.size
     responses: dict[str, NDArray[Any]] = {
-        name: np.empty((n_r, n_sr, n_f, n_t), dtype=CUBE[name].dtype)
+        name: np.empty((n_r, n_i, n_sr, n_f, n_t), dtype=CUBE[name].dtype)
         for name in wanted
         if CUBE[name].dims == STUDY_DIMS
     }
-    bare: dict[str, NDArray[Any]] = {name: np.empty((n_r, n_t)) for name in wanted if name in BARE}
-    braced: dict[str, NDArray[Any]] = {name: np.empty((n_r, n_sr, n_t)) for name in wanted if name in BRACED}
+    bare: dict[str, NDArray[Any]] = {name: np.empty((n_r, n_i, n_t)) for name in wanted if name in BARE}
+    braced: dict[str, NDArray[Any]] = {
+        name: np.empty((n_r, n_i, n_sr, n_t)) for name in wanted if name in BRACED
+    }
     for (r, columns), (out, held, free) in zip(tasks, parts, strict=True):
         ratio, period = np.unravel_index(columns, (n_sr, n_t))
         for name, values in responses.items():
-            if name == "peak_drift_ratio":
-                values[r, ratio, :, period] = out[:, :, rows.index("peak_displacement")] / grid.storey_height
+            if name not in rows and grid.storey_height is not None:  # peak_drift_ratio
+                drift_ratio = out[..., rows.index("peak_displacement")] / grid.storey_height
+                values[r, :, ratio, :, period] = drift_ratio
             else:
-                values[r, ratio, :, period] = out[:, :, rows.index(name)]
+                values[r, :, ratio, :, period] = out[..., rows.index(name)]
         for name, values in braced.items():
-            values[r, ratio, period] = held[:, rows.index(BRACED[name])]
+            values[r, :, ratio, period] = held[..., rows.index(BRACED[name])]
         for name, values in bare.items():
-            values[r, columns[columns < n_t]] = free[:, rows.index(BARE[name])]
-    return responses | bare | braced
+            values[r, :, columns[columns < n_t]] = free[..., rows.index(BARE[name])]
+    found = responses | bare | braced
+    return found if grid.intensity is not None else {name: values[:, 0] for name, values in found.items()}

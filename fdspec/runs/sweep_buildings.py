@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import logging
 import math
+import os
+import time
 from collections.abc import Iterable, Sequence
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -18,15 +21,17 @@ from fdspec.model.building import Building, Frame
 from fdspec.model.building_grid import BuildingGrid, Buildings
 from fdspec.model.motion import GroundMotion
 from fdspec.runs.after import NOTHING, After, zero_or_positive
-from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long, seconds_of_history
+from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long
+from fdspec.runs.cost import seconds_of_history
 from fdspec.runs.cube import assemble, chosen, named
 from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.progress import Shown
-from fdspec.scheduling.threads import Task, cores, fan_out, plan
-from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS, device_variables
+from fdspec.scheduling.task import Task, cores, plan, require_per_task
+from fdspec.scheduling.threads import fan_out
+from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS, INTENSITY_BUILDING_CUBE, Registry, device_variables
 
 if TYPE_CHECKING:
-    from distributed import Client
+    from fdspec.scheduling.task import Client
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -36,13 +41,27 @@ LONG: Final = 60.0
 
 log = logging.getLogger(__name__)
 
+CELLS: Final = BUILDING_DIMS[1:]
+"""The dims of a record's histories, the last fastest."""
+
+SAMPLE: Final = 8
+"""Histories that are computed to see what all take."""
+
+WINDOW: Final = 400
+"""Samples of the record that they are computed under."""
+
 LIMITS: Final = ("elastic_acceleration", "braced_acceleration")
 DEMANDS: Final = tuple(v.name for v in device_variables(()))
 """Outputs of sweeps with devices alone."""
 RESPONSES: Final = tuple(
     v.name for v in BUILDING_CUBE.values() if v.dims[:4] == BUILDING_DIMS and v.name not in DEMANDS
 )
-OUTPUTS: Final = (*RESPONSES, *LIMITS)
+OUTPUTS: Final = (*(name for name in RESPONSES if not BUILDING_CUBE[name].on_request), *LIMITS)
+ON_REQUEST: Final = tuple(name for name in RESPONSES if BUILDING_CUBE[name].on_request)
+"""Outputs that are computed only where they are named, save for buildings with devices.
+
+Histories that run side by side leave them out: with them each is integrated by itself.
+"""
 
 
 def sweep_buildings(
@@ -51,6 +70,7 @@ def sweep_buildings(
     *,
     slip_scale: ArrayLike,
     stiffness_scale: ArrayLike,
+    intensity: ArrayLike | None = None,
     free_vibration: float = 0.0,
     at_rest: bool = False,
     outputs: Iterable[str] | None = None,
@@ -59,6 +79,8 @@ def sweep_buildings(
     scheduler: str = "threads",
     cells_per_task: int | None = None,
     client: Client | None = None,
+    store: str | os.PathLike[str] | None = None,
+    restart: bool = False,
     progress: Shown = False,
 ) -> xr.Dataset:
     """Compute the cube of buildings: peaks of every storey over record, building and two factors on dampers.
@@ -80,6 +102,9 @@ def sweep_buildings(
     stiffness_scale : array_like
         Factors on the stiffness of all braces, positive, strictly increasing.  A dashpot beside a brace
         goes with the square root: the brace keeps its damping ratio.  The frame's own damping stays.
+    intensity : array_like, optional
+        Factors on the ground motions, positive, strictly increasing: adds the dim ``intensity`` after
+        ``record``.  What is told of the records, ``pga`` among it, stays that of factor 1.
     free_vibration : float, s
         How long each history goes on after its motion's end, the ground at rest; rounded up to whole steps of
         the motion.
@@ -87,7 +112,9 @@ def sweep_buildings(
         Go on from there until the energy left can make no damper slip, and give ``residual_displacement``,
         ``residual_drift`` and ``residual_slip`` where the building comes to rest; twice the work.
     outputs : iterable of str, optional
-        Variables of the cube; all unless given.
+        Variables of the cube; unless given, all but those of `ON_REQUEST`, which all cells of a grid with
+        devices have in any case.  With one of these, with free_vibration or at_rest, each history is
+        integrated by itself, which takes longer and gives the other results but for rounding.
     certify : bool
         Whether to compute ``energy_error``; without it the sweep is faster.
     workers : int, optional
@@ -98,6 +125,11 @@ def sweep_buildings(
         Histories of one task; about 0.2 s of work unless given.  No result depends on it.
     client : distributed.Client, optional
         Any cluster of dask.distributed, in place of threads here.
+    store : path, optional
+        A Zarr store, ``cube.zarr``, into which the workers write block by block what they compute.  When it
+        is there, from a sweep that was stopped, only what is missing is computed.
+    restart : bool
+        Whether a store that is there is removed first.
     progress : bool or callable
         Show a bar on stderr where it is a terminal or a notebook's; or call this with (done, total).
 
@@ -107,17 +139,20 @@ def sweep_buildings(
         Where a building has columns that yield, slots, gravity or links, all cells have the demands on
         these too (`fdspec.variables.device_variables`), and a history may end with the status ``collapsed``.
         Dims (record, building, stiffness_scale, slip_scale) and, for what each storey has of its own,
-        storey; variables, units and meanings are those of `fdspec.variables.BUILDING_CUBE`.
+        storey; variables, units and meanings are those of `fdspec.variables.BUILDING_CUBE`, with intensities
+        of `fdspec.variables.INTENSITY_BUILDING_CUBE`.
 
     Raises
     ------
     InvalidInput
         For an argument that cannot be used, by name and value.
+    StoreError
+        For a store that holds another sweep, with what differs, or that cannot be written.
 
     Notes
     -----
-    Results are held in memory until the end: a sweep that is stopped loses them.  Where that is more than a
-    minute of work a warning is logged.
+    Without a store, results are held in memory until the end: a sweep that is stopped loses them.  Where that
+    is more than a minute of work a warning is logged.
 
     The equations of motion are the study's (19) to (25).  Of the limits that ride along,
     ``elastic_acceleration`` is the frame without braces.  A damper that slides freely is another
@@ -132,69 +167,193 @@ def sweep_buildings(
     >>> dict(cube.peak_drift.sizes)
     {'record': 1, 'building': 1, 'stiffness_scale': 1, 'slip_scale': 2, 'storey': 2}
     """
-    grid = BuildingGrid(buildings, stiffness_scale, slip_scale)
+    grid = BuildingGrid(buildings, stiffness_scale, slip_scale, intensity)
     after = After(zero_or_positive("free_vibration", free_vibration), at_rest)
     if at_rest and _with_devices(grid):
         raise InvalidInput("at_rest is for dampers alone, not for buildings with devices")
     motions = named(motions)
-    known = (*OUTPUTS, *_demands(grid))
-    wanted = chosen(outputs, known, certify)
-    histories = _ends(grid)[-1 if set(LIMITS) & set(wanted) else 0]
-    what = f"a sweep of {len(motions) * histories:.4g} histories"
-    refuse_large(8.0 * len(motions) * histories * grid.n_storeys * 2 * len(wanted), what)
-    seconds = [
-        histories
-        * max(seconds_of_history(building, motion.dt, motion.n) for building in grid.buildings)
-        * math.sqrt(max(1.0, float(grid.stiffness_scale.mean())))
-        for motion in motions
-    ]
-    refuse_long(sum(seconds), SWEEP_HOURS, what)
+    require_per_task(cells_per_task, "cells_per_task")
+    wanted = chosen(usual_outputs(grid) if outputs is None else outputs, known_outputs(grid), certify)
+    each = _ends(grid)[-1 if set(LIMITS) & set(wanted) else 0]
+    histories = grid.intensities.size * each
+    refuse_endless(motions, grid, wanted, store)
+    seconds = _seconds(motions, grid, histories)
     warn_of_units(
         motions,
         period=[building.bare_periods[0] for building in grid.buildings],
         slip_force=grid.slip_force,
         floor_mass=[building.floor_mass.min() for building in grid.buildings],
     )
-    tasks = plan(histories, seconds, cells_per_task, "cells_per_task")
-    if (expected := sum(seconds) / cores()) > LONG:
-        log.warning(
-            "about %.0f min of work are held in memory until the end, and lost when it is stopped; sweep a "
-            "few buildings or records at a time, and save each",
-            expected / 60.0,
-        )
-    parts = fan_out(
-        partial(_run, grid, certify, after=after),
-        motions,
-        tasks,
+    fan = partial(
+        fan_out,
+        motions=motions,
         each=1,
-        warm=partial(_warm, _with_devices(grid)),
+        warm=partial(_warm, grid),
         workers=workers,
         scheduler=scheduler,
         client=client,
         progress=progress,
     )
-    return assemble(
-        _variables(grid, len(motions), tasks, parts, wanted),
-        _axes(grid),
-        BUILDING_CUBE,
-        motions,
+    cube_of = partial(
+        assemble,
+        axes=_axes(grid),
+        registry=_registry(grid),
+        motions=motions,
         title="Peak response of buildings with friction dampers",
-        parameters={
-            "buildings": {
-                name: building.parameters for name, building in zip(grid.names, grid.buildings, strict=True)
-            },
-            "stiffness_scale": grid.stiffness_scale,
-            "slip_scale": grid.slip_scale,
-            **after.parameters,
-            "certify": certify,
-            "outputs": list(wanted),
-        },
+        parameters={**parameters_of(grid, wanted, certify), **after.parameters},
         command="fdspec.sweep_buildings",
     )
+    if store is not None:
+        from fdspec.runs.resumable import sweep_into
+
+        return sweep_into(
+            store,
+            cube_of({}),
+            [_registry(grid)[name] for name in wanted],
+            partial(_block, grid, certify, wanted, after),
+            fan,
+            items=CELLS,
+            seconds=sum(seconds),
+            items_per_task=cells_per_task,
+            restart=restart,
+        )
+    tasks = plan(histories, seconds, cells_per_task, "cells_per_task")
+    if (expected := sum(seconds) / cores()) > LONG:
+        log.warning(
+            "about %.0f min of work are held in memory until the end, and lost when it is stopped; with a "
+            "store, store='cube.zarr', what is finished is kept",
+            expected / 60.0,
+        )
+    run = partial(_run, grid, certify, each, after=after, alone=_alone(grid, wanted, after))
+    parts = fan(run, tasks=tasks)
+    return cube_of(_variables(grid, _rows(grid), len(motions), tasks, parts, wanted))
+
+
+def usual_outputs(grid: BuildingGrid) -> tuple[str, ...]:
+    """Return what a sweep of these buildings computes unless it is told otherwise."""
+    return known_outputs(grid) if _with_devices(grid) else (*OUTPUTS, *_demands(grid))
+
+
+def known_outputs(grid: BuildingGrid) -> tuple[str, ...]:
+    """Return what can be computed of these buildings: of devices, where there are some."""
+    return (*OUTPUTS, *ON_REQUEST, *_demands(grid))
+
+
+def parameters_of(grid: BuildingGrid, wanted: Sequence[str], certify: bool) -> dict[str, object]:
+    """Return all that the cube of a grid depends on beside the records."""
+    return {
+        "buildings": {
+            name: building.parameters for name, building in zip(grid.names, grid.buildings, strict=True)
+        },
+        "stiffness_scale": grid.stiffness_scale,
+        "slip_scale": grid.slip_scale,
+        **({} if grid.intensity is None else {"intensity": grid.intensity}),
+        "certify": certify,
+        "outputs": list(wanted),
+    }
+
+
+def bytes_of(motions: Sequence[GroundMotion], grid: BuildingGrid, outputs: Iterable[str]) -> dict[str, int]:
+    """Bytes of each variable of the cube."""
+    lengths = dict(zip(BUILDING_DIMS, (len(motions), *grid.shape), strict=True))
+    lengths |= {"storey": grid.n_storeys, "intensity": grid.intensities.size}
+    registry = _registry(grid)
+    return {
+        name: math.prod(lengths[dim] for dim in registry[name].dims) * np.dtype(registry[name].dtype).itemsize
+        for name in outputs
+    }
+
+
+def refuse_endless(
+    motions: Sequence[GroundMotion],
+    grid: BuildingGrid,
+    outputs: Iterable[str],
+    store: str | os.PathLike[str] | None,
+) -> None:
+    """Raise InvalidInput for a sweep that this machine cannot hold or that takes longer than the limit."""
+    outputs = tuple(outputs)
+    histories = grid.intensities.size * _ends(grid)[-1 if set(LIMITS) & set(outputs) else 0]
+    what = f"a sweep of {len(motions) * histories:.4g} histories"
+    size = float(sum(bytes_of(motions, grid, outputs).values()))
+    if store is None:
+        refuse_large(2.0 * size, what)  # once as the tasks return it, once as the cube
+    elif not Path(store).exists():
+        refuse_large(size, what, folder=Path(store).absolute().parent)
+    refuse_long(sum(_seconds(motions, grid, histories)), SWEEP_HOURS, what)
+
+
+def measured(motions: Sequence[GroundMotion], grid: BuildingGrid, certify: bool = True) -> float:
+    """Core seconds that a sweep takes, from a few of its histories, computed here.
+
+    They are taken around the strongest shaking, so that it is rather too much.
+    """
+    _warm(grid)
+    longest = max(motions, key=lambda motion: motion.n)
+    peak = int(np.argmax(np.abs(longest.acceleration)))
+    first = max(0, min(peak - WINDOW // 4, longest.n - WINDOW))
+    window = GroundMotion(longest.acceleration[first : first + WINDOW], longest.dt, name="window")
+    cells = _ends(grid)[0]
+    count = min(cells, SAMPLE)
+    chosen_cells = ((np.arange(count) + 0.5) * cells / count).astype(np.int64)
+    _run(grid, certify, _ends(grid)[-1], chosen_cells[:1], window)  # loads the kernels
+    started = time.thread_time()
+    _run(grid, certify, _ends(grid)[-1], chosen_cells, window)
+    each = (time.thread_time() - started) / (count * window.n)
+    return each * sum(motion.n for motion in motions) * grid.intensities.size * _ends(grid)[-1]
+
+
+def rough_seconds(motions: Sequence[GroundMotion], grid: BuildingGrid) -> float:
+    """Core time of all histories, s, roughly."""
+    return sum(_seconds(motions, grid, grid.intensities.size * _ends(grid)[-1]))
+
+
+def _seconds(motions: Sequence[GroundMotion], grid: BuildingGrid, histories: int) -> list[float]:
+    """Core time of so many histories under each motion, s, roughly."""
+    return [
+        histories
+        * max(seconds_of_history(building, motion.dt, motion.n) for building in grid.buildings)
+        * math.sqrt(max(1.0, float(grid.stiffness_scale.mean())))
+        for motion in motions
+    ]
+
+
+def _block(
+    grid: BuildingGrid,
+    certify: bool,
+    wanted: Sequence[str],
+    after: After,
+    cells: IntArray,
+    motion: GroundMotion,
+) -> dict[str, NDArray[np.generic]]:
+    """Compute the part of the cube that these cells, a block of all three axes, make up."""
+    b, k, s = map(np.unique, np.unravel_index(cells, grid.shape))
+    # What lacks an axis is computed with the block that comes first along it.
+    first = {"building": True, "stiffness_scale": k[0] == 0, "slip_scale": s[0] == 0}
+    registry = _registry(grid)
+    mine = [name for name in wanted if all(first[dim] for dim in CELLS if dim not in registry[name].dims)]
+    items = [cells]
+    if set(LIMITS) & set(mine):
+        end, braced, _ = _ends(grid)
+        items += [end + (b[:, np.newaxis] * grid.shape[1] + k).ravel(), braced + b]
+    each = _ends(grid)[-1]
+    levels = each * np.arange(grid.intensities.size)[:, np.newaxis]
+    numbers = (levels + np.concatenate(items)).ravel()
+    task = Task(0, np.arange(numbers.size))
+    done = _run(grid, certify, each, numbers, motion, after, _alone(grid, wanted, after))
+    return _variables(grid.part(b, k, s), _rows(grid), 1, [task], [done], mine)
+
+
+def _alone(grid: BuildingGrid, wanted: Sequence[str], after: After) -> bool:
+    """Whether each history is integrated by itself, for what those side by side leave out."""
+    return after != NOTHING or (not _with_devices(grid) and bool(set(ON_REQUEST) & set(wanted)))
+
+
+def _registry(grid: BuildingGrid) -> Registry:
+    return BUILDING_CUBE if grid.intensity is None else INTENSITY_BUILDING_CUBE
 
 
 def _ends(grid: BuildingGrid) -> tuple[int, int, int]:
-    """Where the histories of one record end: those of the cells, of braced buildings, of bare frames."""
+    """Where histories of a record at one intensity end: of cells, of braced buildings, of bare frames."""
     n_b, n_k, n_s = grid.shape
     cells = n_b * n_k * n_s
     return cells, cells + n_b * n_k, cells + n_b * n_k + n_b
@@ -242,40 +401,91 @@ def _with_devices(grid: BuildingGrid) -> bool:
     return any(building.has_devices for building in grid.buildings)
 
 
-def _warm(devices: bool) -> None:
-    import fdspec.engines.many_storeys
+def _warm(grid: BuildingGrid) -> None:
+    from fdspec.engines.frames import runs_beside_others
 
-    if devices:
+    if not all(runs_beside_others(building.frame) for building in grid.buildings):
+        import fdspec.engines.many_storeys
+    if _with_devices(grid):
         import fdspec.engines.devices  # noqa: F401
 
 
 def _run(
-    grid: BuildingGrid, certify: bool, histories: IntArray, motion: GroundMotion, after: After = NOTHING
+    grid: BuildingGrid,
+    certify: bool,
+    each: int,
+    histories: IntArray,
+    motion: GroundMotion,
+    after: After = NOTHING,
+    alone: bool = False,
 ) -> tuple[FloatArray, FloatArray]:
-    """Integrate some histories of a record: results by storey (m, rows, N) and totals (m, entries)."""
-    results = [_run_one(grid, certify, int(history), motion, after) for history in histories]
-    return np.stack([by_storey for by_storey, _ in results]), np.stack([totals for _, totals in results])
+    """Integrate some histories of a record: results by storey (m, rows, N) and totals (m, entries).
+
+    each: histories at one intensity; those of the first come first.  alone: whether each is integrated by
+    itself.
+    """
+    levels, of_level = np.divmod(histories, each)
+    by_storey = np.empty((histories.size, len(_rows(grid)), grid.n_storeys))
+    totals = np.empty((histories.size, len(_totals())))
+    for level in np.unique(levels).tolist():
+        at, s = levels == level, float(grid.intensities[level])
+        shaken = motion if s == 1.0 else motion.times(s)
+        by_storey[at], totals[at] = _run_level(grid, certify, of_level[at], shaken, after, alone)
+    return by_storey, totals
+
+
+def _totals() -> tuple[str, ...]:
+    from fdspec.kernels.frame.results import TOTALS
+
+    return TOTALS
+
+
+def _run_level(
+    grid: BuildingGrid,
+    certify: bool,
+    histories: IntArray,
+    motion: GroundMotion,
+    after: After,
+    alone: bool,
+) -> tuple[FloatArray, FloatArray]:
+    """Integrate the same, all at the intensity of this motion."""
+    if alone or _with_devices(grid):
+        results = [_run_one(grid, certify, int(history), motion, after, alone) for history in histories]
+        return np.stack([rows for rows, _ in results]), np.stack([whole for _, whole in results])
+    from fdspec.engines.frames import peaks_of_frames
+    from fdspec.kernels.frame.results import STOREY_RESULTS, TOTALS
+
+    frames = [_frame(grid, int(history)) for history in histories]
+    by_storey = np.empty((len(frames), len(STOREY_RESULTS), grid.n_storeys))
+    totals = np.empty((len(frames), len(TOTALS)))
+    cells = histories < _ends(grid)[0]
+    for of, certified in ((cells, certify), (~cells, False)):
+        if of.any():
+            chosen_frames = [frame for frame, is_one in zip(frames, of, strict=True) if is_one]
+            by_storey[of], totals[of] = peaks_of_frames(chosen_frames, motion, certify=certified)
+    return by_storey, totals
 
 
 def _run_one(
-    grid: BuildingGrid, certify: bool, history: int, motion: GroundMotion, after: After
+    grid: BuildingGrid, certify: bool, history: int, motion: GroundMotion, after: After, alone: bool
 ) -> tuple[FloatArray, FloatArray]:
     """Integrate one history by the engine for its building: rows of `_rows` (rows, N), and TOTALS.
 
     The limits that ride along are those of the elastic frame. Beside a building with devices, one without
     is integrated by both engines: its peaks are those of the engine of frames, to the bit.
     """
-    from fdspec.engines.many_storeys import peaks_of
-    from fdspec.kernels.frame.history import STOREY_RESULTS, TOTALS
+    from fdspec.kernels.frame.results import DEMANDS as FIRST_DEMAND
+    from fdspec.kernels.frame.results import STOREY_RESULTS, TOTALS
 
     cell = history < _ends(grid)[0]
     free_steps = after.free_steps(motion)
     if after.at_rest and cell:
         return _run_to_rest(grid, certify, history, motion, free_steps)
-    if not _with_devices(grid):
-        return peaks_of(_frame(grid, history), motion, certify=certify and cell, free_steps=free_steps)
-    if not cell:
-        by_storey, totals = peaks_of(_frame(grid, history), motion, certify=False, free_steps=free_steps)
+    by_frames = partial(
+        _of_frame, motion=motion, certify=certify and cell, free_steps=free_steps, alone=alone
+    )
+    if not (cell and _with_devices(grid)):
+        by_storey, totals = by_frames(_frame(grid, history))
         missing = np.zeros((len(_rows(grid)) - len(STOREY_RESULTS), grid.n_storeys))
         return np.concatenate([by_storey, missing]), totals
     from fdspec.engines.devices import peaks_of as peaks_with_devices
@@ -285,10 +495,23 @@ def _run_one(
     table = np.stack([storeys[name] for name in _rows(grid)])
     totals = np.array([whole[name] for name in TOTALS])
     if not building.has_devices:
-        table[: len(STOREY_RESULTS)], totals = peaks_of(
-            _frame(grid, history), motion, certify=certify, free_steps=free_steps
-        )
+        by_storey, totals = by_frames(_frame(grid, history))
+        table[:FIRST_DEMAND] = by_storey[:FIRST_DEMAND]
     return table, totals
+
+
+def _of_frame(
+    frame: Frame, motion: GroundMotion, certify: bool, free_steps: int, alone: bool
+) -> tuple[FloatArray, FloatArray]:
+    """Integrate one frame as if beside others, to the bit, or alone, with all rows of STOREY_RESULTS."""
+    if not alone:
+        from fdspec.engines.frames import peaks_of_frames
+
+        by_storey, totals = peaks_of_frames([frame], motion, certify=certify)
+        return by_storey[0], totals[0]
+    from fdspec.engines.many_storeys import peaks_of
+
+    return peaks_of(frame, motion, certify=certify, free_steps=free_steps)
 
 
 def _run_to_rest(
@@ -297,23 +520,23 @@ def _run_to_rest(
     """Integrate one cell until no damper can slip any more, with the position in which it comes to rest."""
     from fdspec.engines.many_storeys import peaks_of
     from fdspec.engines.rest import rest_of_building
-    from fdspec.kernels.frame.history import STOREY_RESULTS, TOTALS
+    from fdspec.kernels.frame.results import RESULT, TOTAL
 
     at_start = np.zeros((2, 2, grid.n_storeys))
     rest = rest_of_building(_building(grid, history), motion, Span(free_steps, motion.dt, 1), at_start)
     table, totals = peaks_of(
         _frame(grid, history), motion, certify=certify, free_steps=free_steps + rest.steps
     )
-    table[STOREY_RESULTS.index("residual_displacement")] = rest.displacement
-    table[STOREY_RESULTS.index("residual_slip")] = rest.slip
+    table[RESULT.residual_displacement] = rest.displacement
+    table[RESULT.residual_slip] = rest.slip
     if rest.status != 0:
-        totals[TOTALS.index("status")] = rest.status
+        totals[TOTAL.status] = rest.status
     return table, totals
 
 
 def _rows(grid: BuildingGrid) -> tuple[str, ...]:
     """Return the names of what each storey has of its own."""
-    from fdspec.kernels.frame.history import STOREY_RESULTS
+    from fdspec.kernels.frame.results import STOREY_RESULTS
 
     return (*STOREY_RESULTS, *(_demands(grid) if _with_devices(grid) else ()))
 
@@ -328,43 +551,48 @@ def _demands(grid: BuildingGrid) -> tuple[str, ...]:
 
 def _variables(
     grid: BuildingGrid,
+    rows: Sequence[str],
     n_r: int,
     tasks: Sequence[Task],
     parts: Sequence[tuple[FloatArray, FloatArray]],
     wanted: Sequence[str],
 ) -> dict[str, NDArray[np.generic]]:
     """Put what the tasks returned where it stands in the cube."""
-    from fdspec.kernels.frame.history import TOTALS
+    from fdspec.kernels.frame.results import TOTALS
 
-    rows = _rows(grid)
     cells, braced, bare = _ends(grid)
+    n_i = grid.intensities.size
     histories = 1 + max(int(task.items.max()) for task in tasks)
     by_storey = np.empty((len(rows), n_r, histories, grid.n_storeys))
     totals = np.empty((len(TOTALS), n_r, histories))
     for (r, items), (of_storeys, of_all) in zip(tasks, parts, strict=True):
         by_storey[:, r, items] = of_storeys.transpose(1, 0, 2)
         totals[:, r, items] = of_all.T
-    results = dict(zip(rows, by_storey, strict=True)) | dict(zip(TOTALS, totals, strict=True))
+    levels = (n_r, n_i, histories // n_i)
+    results = dict(zip(rows, by_storey.reshape(len(rows), *levels, grid.n_storeys), strict=True))
+    results |= dict(zip(TOTALS, totals.reshape(len(TOTALS), *levels), strict=True))
     results["peak_base_shear"] = results["peak_storey_shear"][..., 0]
     results["residual_drift"] = np.diff(results["residual_displacement"], prepend=0.0)
+    if "peak_drift_ratio" in wanted and "peak_drift_ratio" not in results:
+        n_b, n_k, n_s = grid.shape
+        height = np.stack([building.storey_height for building in grid.buildings])
+        drift = results["peak_drift"][:, :, :cells].reshape(n_r, n_i, n_b, n_k * n_s, grid.n_storeys)
+        results["peak_drift_ratio"] = (drift / height[:, np.newaxis]).reshape(n_r, n_i, cells, -1)
     acceleration = results["peak_acceleration"]
     limits = {
-        "elastic_acceleration": acceleration[:, braced:bare],
-        "braced_acceleration": acceleration[:, cells:braced],
+        "elastic_acceleration": acceleration[:, :, braced:bare],
+        "braced_acceleration": acceleration[:, :, cells:braced],
     }
     n_b, n_k, n_s = grid.shape
     lengths = {"record": n_r, "building": n_b, "stiffness_scale": n_k, "slip_scale": n_s}
-    lengths["storey"] = grid.n_storeys
+    lengths |= {"storey": grid.n_storeys, "intensity": n_i}
+    registry = _registry(grid)
     variables: dict[str, NDArray[np.generic]] = {}
     for name in wanted:
-        variable = BUILDING_CUBE[name]
-        of = "peak_drift" if name == "peak_drift_ratio" else name
-        values = limits[name] if name in limits else results[of][:, :cells]
+        variable = registry[name]
+        values = limits[name] if name in limits else results[name][:, :, :cells]
         shape = [lengths[dim] for dim in variable.dims]
         variables[name] = values.reshape(shape).astype(variable.dtype)
-        if name == "peak_drift_ratio":
-            height = np.stack([building.storey_height for building in grid.buildings])
-            variables[name] = variables[name] / height[:, np.newaxis, np.newaxis]
     return variables
 
 
@@ -373,6 +601,7 @@ def _axes(grid: BuildingGrid) -> dict[str, object]:
         "building": list(grid.names),
         "stiffness_scale": grid.stiffness_scale,
         "slip_scale": grid.slip_scale,
+        **({} if grid.intensity is None else {"intensity": grid.intensity}),
         "storey": np.arange(1, grid.n_storeys + 1),
         "slip_force": grid.slip_force,
         "kinetic_slip_force": grid.kinetic_slip_force,

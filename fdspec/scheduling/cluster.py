@@ -19,19 +19,14 @@ from functools import cache
 from itertools import islice
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
-import numpy as np
-from numpy.typing import NDArray
-
-from fdspec import __version__
 from fdspec.errors import ClusterError, FdspecError
 from fdspec.model.motion import GroundMotion
+from fdspec.scheduling.task import IntArray, Task
+from fdspec.version import __version__
 
 if TYPE_CHECKING:
     from distributed import Client, Future
 
-    from fdspec.scheduling.threads import Task
-
-IntArray = NDArray[np.int64]
 Result = TypeVar("Result")
 
 IN_FLIGHT: Final = 2000

@@ -5,9 +5,7 @@ Results do not depend on how items are shared out: each item is computed from it
 
 from __future__ import annotations
 
-import math
 import multiprocessing
-import os
 import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
@@ -15,34 +13,22 @@ from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager
 from functools import partial
 from types import FrameType
-from typing import TYPE_CHECKING, Any, Final, Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
 import dask
-import numpy as np
 from dask.callbacks import Callback
-from numpy.typing import NDArray
 
 from fdspec.errors import InvalidInput
 from fdspec.model.motion import GroundMotion
 from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.progress import progress as progress_bar
+from fdspec.scheduling.task import IntArray, Task, cores
 from fdspec.stopping import STOPPING
 
 if TYPE_CHECKING:
-    from distributed import Client
+    from fdspec.scheduling.task import Client
 
-IntArray = NDArray[np.int64]
 Result = TypeVar("Result")
-
-TASK_SECONDS: Final = 0.2
-"""Aimed length of a task: long against what dask spends on one, short against the whole."""
-
-
-class Task(NamedTuple):
-    """Some items of one record."""
-
-    record: int
-    items: IntArray
 
 
 class Done(NamedTuple, Generic[Result]):
@@ -50,30 +36,6 @@ class Done(NamedTuple, Generic[Result]):
 
     histories: int
     result: Result
-
-
-def cores() -> int:
-    """Cores of this machine, as many as dask starts workers."""
-    return os.cpu_count() or 1
-
-
-def plan(items: int, seconds: Sequence[float], per_task: int | None, argument: str) -> list[Task]:
-    """Share out the items of every record.
-
-    seconds: core time of all items under each record, roughly; per_task: items of a task where the user
-    has said so in this argument.  Each task takes every n-th item, so that neighbours, alike in cost, are
-    spread over tasks.
-    """
-    if per_task is not None and per_task < 1:
-        raise InvalidInput(f"{argument} must be at least 1, got {per_task}")
-    tasks = []
-    for record, cost in enumerate(seconds):
-        if per_task is None:
-            count = max(1, min(items, round(cost / TASK_SECONDS)))
-        else:
-            count = math.ceil(items / per_task)
-        tasks += [Task(record, np.arange(first, items, count)) for first in range(count)]
-    return tasks
 
 
 def fan_out(

@@ -65,7 +65,9 @@ def resampled(motion: GroundMotion, dt: float) -> GroundMotion:
     """Return the motion at another time step, s, by a polyphase filter (scipy.signal.resample_poly).
 
     The filter takes out what the new step cannot carry. A finer step changes the motion too: between samples
-    the original is linear and the filtered one is not. The solver needs no finer step.
+    the original is linear and the filtered one is not. The solver needs no finer step. The line from the
+    first to the last sample is left out of the filter, so that the ends do not fade towards zero; no sample
+    stands behind the original's last.
     """
     from scipy.signal import resample_poly
 
@@ -75,7 +77,16 @@ def resampled(motion: GroundMotion, dt: float) -> GroundMotion:
         raise InvalidInput(
             f"dt must stand to {motion.dt!r} s as two whole numbers up to {MAX_DENOMINATOR}, not {dt!r}"
         )
-    samples = resample_poly(motion.acceleration, ratio.numerator, ratio.denominator)
+    first, last = motion.acceleration[0], motion.acceleration[-1]
+    share: NDArray[np.float64] = np.arange(motion.n, dtype=np.float64) / (motion.n - 1)
+    filtered = resample_poly(
+        motion.acceleration - (first + (last - first) * share), ratio.numerator, ratio.denominator
+    )
+    count = (motion.n - 1) * ratio.numerator // ratio.denominator + 1
+    if count < 2:
+        raise InvalidInput(f"dt must leave 2 samples or more of {motion.duration:g} s, not {dt!r}")
+    share = np.arange(count, dtype=np.float64) * (ratio.denominator / ratio.numerator / (motion.n - 1))
+    samples = np.asarray(filtered[:count] + (first + (last - first) * share), dtype=np.float64)
     changed = _changed(motion, samples, f"resampled from {motion.dt:g} to {dt:g} s")
     return replace(changed, dt=dt)
 

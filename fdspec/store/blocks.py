@@ -57,9 +57,9 @@ class Blocks:
             for dim, k in self.place(number).items()
         }
 
-    def histories(self, number: int) -> int:
-        """Cells of a block."""
-        return math.prod(part.stop - part.start for part in self.slices(number).values())
+    def cells(self, number: int, variable: HasDims) -> int:
+        """Cells that a block has of a variable."""
+        return math.prod(part.stop - part.start for part in self.region(number, variable))
 
     def owns(self, number: int, variable: HasDims) -> bool:
         """Whether it is this block that holds the variable's chunk."""

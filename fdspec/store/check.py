@@ -29,6 +29,9 @@ from fdspec.variables import (
     BUILDING_CUBE,
     CUBE,
     HISTORY,
+    INTENSITY,
+    INTENSITY_BUILDING_CUBE,
+    INTENSITY_CUBE,
     NOT_COMPUTED,
     STATUSES,
     STUDY_DIMS,
@@ -68,10 +71,12 @@ def check(path: str | os.PathLike[str]) -> Iterator[Finding]:
         yield Finding("checksums", False, str(error))
         return
     with cube:
-        whole = _guarded(
-            "checksums", _store_checksums if chunks.is_store(path) else _file_checksums, path, cube
-        )
         registry = _registry(cube)
+        whole = (
+            _guarded("checksums", _store_checksums, path, cube, registry or CUBE)
+            if chunks.is_store(path)
+            else _guarded("checksums", _file_checksums, path, cube)
+        )
         if registry is None:
             yield Finding("schema", None, "neither cube nor history: CF and checksums alone are looked at")
             yield _guarded("CF", _conventions, path, cube)
@@ -105,9 +110,9 @@ def _registry(cube: xr.Dataset) -> Registry | None:
     """Return what the dataset should hold; None where it is no cube and no history."""
     dims = set(cube.dims)
     if "building" in dims and "slip_scale" in dims:
-        return BUILDING_CUBE
+        return INTENSITY_BUILDING_CUBE if INTENSITY in dims else BUILDING_CUBE
     if len(dims & set(STUDY_DIMS)) == len(STUDY_DIMS):
-        return CUBE
+        return INTENSITY_CUBE if INTENSITY in dims else CUBE
     return HISTORY if "time" in dims and "displacement" in cube.variables else None
 
 
@@ -192,9 +197,9 @@ def _axes(cube: xr.Dataset) -> Finding:
     )
 
 
-def _store_checksums(path: str | os.PathLike[str], cube: xr.Dataset) -> Finding:
+def _store_checksums(path: str | os.PathLike[str], cube: xr.Dataset, registry: Registry) -> Finding:
     blocks, _ = chunks.described(path)
-    variables = [CUBE[str(name)] for name in cube.data_vars if name in CUBE]
+    variables = [registry[str(name)] for name in cube.data_vars if name in registry]
     missing, damaged = 0, []
     for _, state, files in chunks.states(path, blocks, variables):
         missing += state is chunks.State.MISSING

@@ -21,9 +21,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-FASTEST: Final = "period"
-"""The dim along which blocks follow each other."""
-
 CACHE: Final = 1 << 20
 """Bytes that HDF5 may keep of a variable."""
 
@@ -65,6 +62,7 @@ def _fill(file: Any, cube: xr.Dataset, blocks: Blocks) -> dict[str, str]:
     """Write all blocks; return the checksums of the variables, taken in the order of their numbers."""
     running = {str(name): checksums.started(array.variable) for name, array in cube.data_vars.items()}
     row: dict[str, list[NDArray[Any]]] = {name: [] for name in running}
+    fastest = list(blocks.sizes)[-1]
     for number in range(len(blocks)):
         block = cube.isel(blocks.slices(number))
         for key, array in block.data_vars.items():
@@ -73,10 +71,10 @@ def _fill(file: Any, cube: xr.Dataset, blocks: Blocks) -> dict[str, str]:
                 continue
             values = array.values
             file[name][blocks.region(number, array.variable)] = values
-            # Blocks come in the order of numbers but for those beside each other along the period.
+            # Blocks come in the order of numbers but for those beside each other along the last dim.
             row[name].append(values)
-            if blocks.slices(number)[FASTEST].stop == blocks.sizes[FASTEST]:
-                whole = np.concatenate(row[name], axis=array.dims.index(FASTEST))
+            if blocks.slices(number)[fastest].stop == blocks.sizes[fastest]:
+                whole = np.concatenate(row[name], axis=-1)
                 running[name] = checksums.of_values(whole, running[name])
                 row[name].clear()
     return {name: f"{checksum:08x}" for name, checksum in running.items()}

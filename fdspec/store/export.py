@@ -64,6 +64,8 @@ def export(cube: xr.Dataset, path: str | os.PathLike[str], *, record: str | None
 
 
 def _one_record(cube: xr.Dataset, record: str | None) -> xr.Dataset:
+    if "statistic" in cube.dims and "record" not in cube.coords and record is None:
+        return cube  # what `fdspec.summary` makes of all records
     if "record" not in cube.coords:
         raise StoreError("the dataset has no record coordinate; export takes what sweep returns")
     names = [str(name) for name in np.atleast_1d(cube["record"].values)]
@@ -118,7 +120,8 @@ def _heading(one: xr.Dataset, columns: list[str]) -> Iterator[str]:
 
 
 def _origin(one: xr.Dataset) -> Iterator[str]:
-    yield f"record: {one['record'].item()}"
+    if "record" in one.coords:
+        yield f"record: {one['record'].item()}"
     for name in ("title", "source", "history", "comment", "parameters"):
         if name in one.attrs:
             yield f"{name}: {one.attrs[name]}".replace("\n", " ").replace("\r", " ")

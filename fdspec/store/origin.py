@@ -15,7 +15,7 @@ from fdspec.variables import BUILDING_CUBE, CUBE
 if TYPE_CHECKING:
     import xarray as xr
 
-AXES: Final = ("stiffness_ratio", "pretension", "period", "stiffness_scale", "slip_scale")
+AXES: Final = ("intensity", "stiffness_ratio", "pretension", "period", "stiffness_scale", "slip_scale")
 """Axes of cubes that stand in the parameters, number by number."""
 
 FORCES: Final = ("slip_force", "kinetic_slip_force")

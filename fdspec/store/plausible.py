@@ -18,6 +18,7 @@ POSITIVE: Final = (
     "stiffness_ratio",
     "period",
     "stiffness_scale",
+    "intensity",
     "dt",
     "samples",
     "bare_period",
@@ -42,7 +43,16 @@ PREFIXES: Final = ("peak_", "bare_", "braced_")
 ENDLESS: Final = ("pretension", "slip_scale", "slip_force", "kinetic_slip_force")
 """May be infinite: a damper that never slips."""
 
-RISING: Final = ("stiffness_ratio", "pretension", "period", "stiffness_scale", "slip_scale", "storey", "time")
+RISING: Final = (
+    "stiffness_ratio",
+    "pretension",
+    "period",
+    "stiffness_scale",
+    "slip_scale",
+    "intensity",
+    "storey",
+    "time",
+)
 
 
 def wrong_coordinates(dataset: xr.Dataset) -> Iterator[str]:

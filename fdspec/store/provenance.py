@@ -11,8 +11,8 @@ from typing import Any, Final, Protocol
 
 import numpy as np
 
-from fdspec import __version__
 from fdspec.errors import InvalidInput
+from fdspec.version import __version__
 
 STUDY: Final = "Numerical methodology for dynamic analysis of buildings with friction dampers"
 """Title of the study that fdspec follows."""

@@ -13,7 +13,7 @@ from fdspec.store.layout import is_text
 from fdspec.store.origin import parameters_of
 from fdspec.store.plausible import wrong_coordinates
 from fdspec.store.refusals import no_resources
-from fdspec.variables import STUDY_DIMS
+from fdspec.variables import INTENSITY, STUDY_DIMS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -24,13 +24,22 @@ def require_cube(dataset: xr.Dataset, path: str | os.PathLike[str], what: str) -
     needs = f"{what} need a cube of single-storey frames, as fdspec sweep writes it"
     lacking = [dim for dim in STUDY_DIMS if dim not in dataset.dims]
     if "building" in dataset.dims:
-        raise InvalidInput(f"{os.fspath(path)} is a cube of buildings; {needs}")
+        raise InvalidInput(
+            f"{os.fspath(path)} is a cube of buildings; {needs} without them; 'fdspec figures' "
+            "draws its profiles, 'fdspec summary' and 'fdspec export' give its numbers"
+        )
     if "time" in dataset.dims:
         raise InvalidInput(f"{os.fspath(path)} is a history; {needs}")
     if lacking:
         raise InvalidInput(
             f"{os.fspath(path)} has no dimension {', '.join(lacking)}; {needs} (select with lists to keep "
             "dims)"
+        )
+    if INTENSITY in dataset.dims:
+        levels = ", ".join(f"{level:g}" for level in np.atleast_1d(dataset[INTENSITY].values)[:20])
+        raise InvalidInput(
+            f"{os.fspath(path)} is a cube over intensities ({levels}); {what} need one of them: "
+            "fdspec.save(cube.sel(intensity=...), path) writes it"
         )
     empty = [dim for dim in STUDY_DIMS if not dataset.sizes[dim]]
     if empty:

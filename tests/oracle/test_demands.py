@@ -15,7 +15,7 @@ from numba import config
 import fdspec
 from fdspec.engines.batch import integrate_columns
 from fdspec.engines.many_storeys import peaks_of
-from fdspec.kernels.frame.history import STOREY_RESULTS
+from fdspec.kernels.frame.results import STOREY_RESULTS
 from fdspec.kernels.storey.history import RESULTS
 from tests.buildings import Case
 from tests.cells import FLOOR_MASS, Cell, draw

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from fdspec.errors import RecordError
 from fdspec.records.at2 import read as read_at2
+from fdspec.records.given import given as options
 from fdspec.records.numbers import parse_block
 from fdspec.records.text import read as read_columns
 from fdspec.records.textfile import TextFile
@@ -48,7 +49,7 @@ def test_two_columns_with_times_rounded_or_not(samples, dt, decimals):
     rows = tuple(f"{k * dt:.{decimals}f} {x!r}" for k, x in enumerate(samples))
     shown = {round(k * dt, decimals) == k * dt for k in range(len(rows))}
     try:
-        (channel,) = read_columns(TextFile("f", rows), units="m/s2")
+        (channel,) = read_columns(TextFile("f", rows), options(units="m/s2"))
     except RecordError:
         # Times too coarse for their step may be refused, never read wrongly.
         assert 10.0**-decimals * 5 > dt

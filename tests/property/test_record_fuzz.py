@@ -16,6 +16,7 @@ from fdspec.errors import RecordError
 from fdspec.records import read_channels
 from fdspec.records.reading import read_record
 from tests.fixtures.records import samples
+from tests.fixtures.records.layouts import layouts
 from tests.fixtures.records.samples import SAMPLES
 
 SEED = 20261122
@@ -101,7 +102,7 @@ def check(path, content: bytes, count: int | None = None, **arguments) -> bool:
     refusal = None
     try:
         with warnings.catch_warnings():
-            warnings.filterwarnings("ignore", message=".*the unit looks wrong")
+            warnings.filterwarnings("ignore", message=".*the unit looks wrong|.*look like g")
             motions = read_channels(path, **arguments)
     except RecordError as error:
         refusal = str(error)
@@ -160,6 +161,43 @@ def test_mutated_miniseed(tmp_path):
 @pytest.mark.filterwarnings("ignore")
 def test_ten_thousand_mutated_miniseed(tmp_path):
     fuzz_miniseed(tmp_path / "mutated.dat", 10_000)
+
+
+def fuzz_sac(path, count: int) -> None:
+    pytest.importorskip("obspy", reason="obspy is in the extra miniseed")
+    chance = random.Random(f"{SEED} sac")
+    content = samples.sac()
+    for _ in range(count):
+        check(path, mutate(content, chance), units="cm/s2")
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_mutated_sac(tmp_path):
+    fuzz_sac(tmp_path / "mutated.dat", 300)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore")
+def test_ten_thousand_mutated_sac(tmp_path):
+    fuzz_sac(tmp_path / "mutated.dat", 10_000)
+
+
+def fuzz_layouts(path, count: int) -> None:
+    """Damage rows under words too: what is read then is no error, but nothing may crash or hang."""
+    chance = random.Random(f"{SEED} layouts")
+    drawn = layouts(SEED, 40)
+    for _ in range(count):
+        layout = chance.choice(drawn)
+        check(path, mutate(layout.content, chance), **layout.options)
+
+
+def test_mutated_layouts(tmp_path):
+    fuzz_layouts(tmp_path / "mutated.dat", 600)
+
+
+@pytest.mark.slow
+def test_ten_thousand_mutated_layouts(tmp_path):
+    fuzz_layouts(tmp_path / "mutated.dat", 10_000)
 
 
 @pytest.mark.parametrize("name", sorted(set(SAMPLES) - {"columns of text"}))

@@ -15,7 +15,8 @@ from fdspec.cli import main
 from fdspec.errors import InvalidInput
 from fdspec.model.grid import Grid
 from fdspec.runs import bounds
-from fdspec.runs.bounds import memory_free, seconds_of_history, seconds_of_sweep
+from fdspec.runs.bounds import memory_free
+from fdspec.runs.cost import seconds_of_history, seconds_of_sweep
 
 AXES: dict[str, Any] = {"period": [0.5], "pretension": [50e3], "stiffness_ratio": [4.0]}
 

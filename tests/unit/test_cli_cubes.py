@@ -60,7 +60,13 @@ def test_all_figures_come_with_a_sheet_and_captions(folder: Path, capsys: pytest
     assert main(["figures", "cube.nc", "-o", "pictures", "--format", "pdf"]) == 0
     told = capsys.readouterr()
     stems = [
-        *("figure-04-additional-frame", "figure-06-four-storeys", "figure-08-records", "figure-09-spectra"),
+        *(
+            "figure-04-additional-frame",
+            "figure-06-four-storeys",
+            "figure-07-damper",
+            "figure-08-records",
+            "figure-09-spectra",
+        ),
         *("figure-10-FSR1", "record-odd_name", "contact-sheet"),
     ]
     assert [Path(line).name for line in told.out.splitlines()] == [f"{stem}.pdf" for stem in stems]
@@ -101,7 +107,7 @@ def test_the_script_makes_the_same_bytes_in_another_process(folder: Path) -> Non
 def test_the_figures_are_listed(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["figures", "cube.nc", "--list"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert [line.split()[0] for line in lines] == ["4", "6", "8", "9", "10", "odd/name"]
+    assert [line.split()[0] for line in lines] == ["4", "6", "7", "8", "9", "10", "odd/name"]
     assert names(folder) == {"cube.nc"}
 
 
@@ -118,13 +124,13 @@ def test_a_picture_that_exists_is_kept_unless_forced(
     assert mine.read_bytes().startswith(b"%PDF")
 
 
-@pytest.mark.parametrize("only", ["11", "10,FSR2", "10, 7"])
+@pytest.mark.parametrize("only", ["11", "10,FSR2", "10, 5"])
 def test_a_figure_that_the_cube_does_not_give(
     folder: Path, only: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     wrong = only.rpartition(",")[2].strip()
     err = refused(capsys, "figures", "cube.nc", "--only", only)
-    assert f"there is no figure '{wrong}'; this cube gives 4, 6, 8, 9, 10, odd/name" in err
+    assert f"there is no figure '{wrong}'; this cube gives 4, 6, 7, 8, 9, 10, odd/name" in err
     assert "--only must name figures" in refused(capsys, "figures", "cube.nc", "--only", ",")
     assert names(folder) == {"cube.nc"}
 

@@ -3,6 +3,7 @@
 import pytest
 
 from fdspec.cli import table as module
+from fdspec.cli.echo import coloured
 from fdspec.cli.table import (
     counted,
     filled,
@@ -13,6 +14,7 @@ from fdspec.cli.table import (
     terminal_width,
     text_width,
 )
+from fdspec.printable import printable
 
 
 def test_columns_line_up_and_lines_end_with_no_blanks() -> None:
@@ -103,10 +105,10 @@ def test_running_text_is_never_too_wide_to_read(
 def test_colour_is_for_terminals_and_not_where_no_color_is_set(
     narrow: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    coloured = table(("a", "b"), [("x", "pass")], colours={"pass": "green"})
-    assert "\x1b[32mpass\x1b[0m" in coloured
+    marked = table(("a", "b"), [("x", "pass")], colours={"pass": "green"})
+    assert "\x1b[32mpass\x1b[0m" in coloured(printable(marked))
     monkeypatch.setenv("NO_COLOR", "1")
-    assert "\x1b" not in table(("a", "b"), [("x", "pass")], colours={"pass": "green"})
+    assert "\x1b" not in coloured(table(("a", "b"), [("x", "pass")], colours={"pass": "green"}))
     monkeypatch.delenv("NO_COLOR")
     monkeypatch.setattr(module, "on_terminal", lambda: False)
-    assert "\x1b" not in table(("a", "b"), [("x", "pass")], colours={"pass": "green"})
+    assert "\x1b" not in coloured(table(("a", "b"), [("x", "pass")], colours={"pass": "green"}))

@@ -11,6 +11,7 @@ import pytest
 
 import fdspec
 from fdspec import Building, Link, ModalDamping
+from fdspec.cli import main
 from fdspec.errors import InvalidInput, StudyError
 from fdspec.model.building_file import read_building
 from fdspec.runs.study import Study
@@ -19,6 +20,7 @@ from tests.reference import numbers
 
 GROUND, DT = numbers.motion("mdof_peaks.json")
 SHORT = fdspec.GroundMotion(GROUND[200:501] * 1.5, DT, name="short")
+BRIEF = fdspec.GroundMotion(GROUND[300:361] * 2.0, DT, name="brief")
 DEVICES: dict[str, Any] = {
     "storey_height": 3.0,
     "yield_shear": 60e3,
@@ -109,10 +111,11 @@ def test_a_study_file_takes_devices() -> None:
         Study.parse("gravity_load = 1e5\n")
 
 
+@pytest.mark.slow
 def test_best_pretension_with_devices() -> None:
-    best = fdspec.best_pretension(SHORT, period=0.4, stiffness_ratio=4.0, yield_shear=60e3)
+    best = fdspec.best_pretension(BRIEF, period=0.4, stiffness_ratio=4.0, yield_shear=60e3)
     pretension = float(best["pretension"].item())
-    cube = fdspec.sweep(SHORT, period=[0.4], stiffness_ratio=[4.0], pretension=[pretension], yield_shear=60e3)
+    cube = fdspec.sweep(BRIEF, period=[0.4], stiffness_ratio=[4.0], pretension=[pretension], yield_shear=60e3)
     assert best["peak_acceleration"].item() == cube["peak_acceleration"].item()
 
 
@@ -152,7 +155,7 @@ def test_sweep_buildings_with_and_without_devices() -> None:
 
 
 def test_choose_with_devices() -> None:
-    found = fdspec.choose(office(yield_shear=[150e3, 80e3]), SHORT)
+    found = fdspec.choose(office(yield_shear=[150e3, 80e3]), BRIEF)
     force = found["slip_force"].values
     assert (force > 0.0).all()
 
@@ -179,3 +182,37 @@ def test_a_building_file_takes_devices(tmp_path: Path) -> None:
     )
     with pytest.raises(InvalidInput, match=r"office.toml: storey_height must be given"):
         read_building(path)
+
+
+def test_the_command_takes_devices(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "history.nc"
+    options = [
+        "--yield-shear",
+        "5e3",
+        "--hardening-ratio",
+        "0.02",
+        "--slot-length",
+        "0.002",
+        "--slot-stiffness",
+        "2e7",
+    ]
+    frame = ["--period", "0.4", "--stiffness-ratio", "4", "--slip-force", "30e3"]
+    assert main(["simulate", "--record", "FSR1", *frame, *options, "-o", str(out)]) == 0
+    assert "ductility" in capsys.readouterr().out
+    history = fdspec.open(out)
+    assert int(history["column_events"][0]) > 0
+    assert (
+        main(["simulate", "--record", "FSR1", *frame, "--slot-length", "0.002", "-o", str(out), "--force"])
+        == 2
+    )
+    assert "slot_stiffness must be positive, in N/m, where slot_length is given" in capsys.readouterr().err
+
+
+def test_the_page_runs_a_cell_with_its_devices() -> None:
+    from fdspec.explore.rerun import _parameters
+
+    cube = fdspec.sweep(SHORT, **AXES, **DEVICES)
+    frame, _ = _parameters(cube)
+    assert {name: frame[name] for name in DEVICES} == DEVICES
+    plain, _ = _parameters(fdspec.sweep(SHORT, **AXES))
+    assert not set(DEVICES) & set(plain)

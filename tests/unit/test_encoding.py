@@ -6,8 +6,8 @@ import zlib
 import pytest
 from matplotlib.figure import Figure
 
-from fdspec import __version__
 from fdspec.figures import encode
+from fdspec.version import __version__
 
 
 @pytest.fixture

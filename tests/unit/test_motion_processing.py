@@ -73,11 +73,27 @@ def test_padded():
 def test_resampled_keeps_what_both_steps_carry(dt):
     motion = resampled(sine(1.0), dt)
     assert motion.dt == dt
-    inner = slice(len(motion) // 10, -len(motion) // 10)  # the filter sees zeros beyond the ends
+    inner = slice(len(motion) // 10, -len(motion) // 10)  # the filter knows nothing beyond the ends
     np.testing.assert_allclose(
         motion.acceleration[inner], np.sin(2.0 * np.pi * motion.time)[inner], atol=2e-3
     )
     assert motion.history == (f"resampled from 0.005 to {dt:g} s",)
+
+
+@pytest.mark.parametrize("dt", [0.0025, 0.01, 0.0075, 0.004, 0.00488])
+@pytest.mark.parametrize("n", [2, 3, 100, 257])
+def test_resampled_neither_fades_at_the_ends_nor_lengthens(dt, n):
+    constant = GroundMotion(np.full(n, 2.5), 0.005)
+    line = GroundMotion(np.linspace(-1.0, 3.0, n), 0.005)
+    if constant.duration < dt:
+        with pytest.raises(InvalidInput, match="dt must leave 2 samples or more"):
+            resampled(constant, dt)
+        return
+    for motion in (constant, line):
+        new = resampled(motion, dt)
+        assert motion.duration - dt < new.duration <= motion.duration * (1.0 + 1e-12)
+        expected = np.interp(new.time, motion.time, motion.acceleration)
+        np.testing.assert_allclose(new.acceleration, expected, atol=1e-12)
 
 
 def test_resampled_takes_out_what_the_new_step_cannot_carry():

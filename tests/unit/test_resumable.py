@@ -13,9 +13,10 @@ import pytest
 import xarray as xr
 
 import fdspec
-from fdspec.errors import DiskError, InvalidInput, StoreError
+from fdspec.errors import DiskError, StoreError
 from fdspec.runs import resumable
 from fdspec.runs.resumable import differences, identity_of, plan_blocks
+from fdspec.runs.sweep import COLUMNS
 from fdspec.store import chunks
 from fdspec.store.conversion import to_netcdf
 from fdspec.variables import CUBE, STUDY_DIMS
@@ -230,12 +231,10 @@ def test_a_store_that_is_removed_at_work_is_told(
 def test_blocks_are_of_a_length_worth_a_task() -> None:
     sizes = {"record": 1000, "stiffness_ratio": 20, "pretension": 100, "period": 100}
     seconds = 1e4
-    blocks = plan_blocks(sizes, seconds, None)
+    blocks = plan_blocks(sizes, COLUMNS, seconds, None)
     assert blocks.edges["record"] == 1
     length = seconds / len(blocks)
     assert 0.8 * resumable.LONGEST < length <= resumable.LONGEST
-    with pytest.raises(InvalidInput, match="columns_per_task must be at least 1, got 0"):
-        plan_blocks(sizes, seconds, 0)
 
 
 def test_names_of_chunks_are_zarrs(motions: Motions, store: Path) -> None:

@@ -49,6 +49,14 @@ def test_every_field_of_the_grid_can_be_written() -> None:
         "kinetic_friction_coefficient": 0.3,
         "normal_force_factor": 4.0,
         "brace_damping_ratio": 0.01,
+        "storey_height": 3.0,
+        "yield_shear": 5e3,
+        "hardening_ratio": -0.02,
+        "gravity_load": 1e3,
+        "slot_length": 0.01,
+        "slot_stiffness": 1e6,
+        "recentring_stiffness": 1e5,
+        "intensity": [0.5, 2.0],
     }
     assert set(values) == set(GRID_FIELDS)
     study = Study.parse("\n".join(f"{name} = {value}" for name, value in values.items()))
@@ -111,6 +119,13 @@ def test_an_axis_may_be_a_table() -> None:
     assert study.grid.period.tolist() == [0.1, 0.2, 0.3]
 
 
+UNKNOWN_KEY = (
+    "records: unknown key 'unit' of a record; "
+    "known are path, units, dt, channel, name, skip, layout, resample_to, factor, pga, sa, target, "
+    "target_units, period, damping_ratio, pair, pair_channel, combination"
+)
+
+
 @pytest.mark.parametrize(
     ("line", "mistake"),
     [
@@ -154,7 +169,7 @@ def test_an_axis_may_be_a_table() -> None:
         ("records = ['FSR1', 2]", "records: must be a name, a path or a table, got 2"),
         (
             "records = [{ path = 'a.txt', unit = 'g' }]",
-            "records: unknown key 'unit' of a record; known are path, units, dt, channel, name",
+            UNKNOWN_KEY,
         ),
         ("records = [{ units = 'g' }]", "records: a record given as a table needs path, its file"),
         (

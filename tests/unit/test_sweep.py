@@ -145,11 +145,11 @@ def test_motions_must_be_motions_of_different_names() -> None:
 
 def test_the_cost_is_measured_with_the_braces_there_are() -> None:
     from fdspec.model.grid import Grid
-    from fdspec.runs.sweep import measured
+    from fdspec.runs.pilot import wall_seconds
 
     motion = fdspec.load_record("FSR1")
     heavy = Grid(stiffness_ratio=[4.0], pretension=[10e3, 50e3], period=[0.05, 0.5])  # type: ignore[arg-type]
     light = replace(heavy, brace_mass=1e-4)
     # Its frequency is 700 times as high, and so are the changes of phase that it can make.
-    assert measured([motion], light) > 20 * measured([motion], heavy)
-    assert measured([motion] * 3, light) > measured([motion], light)
+    assert wall_seconds([motion], light) > 20 * wall_seconds([motion], heavy)
+    assert wall_seconds([motion] * 3, light) > wall_seconds([motion], light)

@@ -16,6 +16,7 @@ from fdspec.errors import InvalidInput
 from fdspec.runs.sweep_buildings import OUTPUTS
 
 AXES: dict[str, Any] = {"slip_scale": [0.0, 0.3, 1.0, np.inf], "stiffness_scale": [0.5, 1.0, 3.0]}
+COUNTED = ("status", "transitions", "storey_transitions")
 OVER_TIME = ("slip_travel", "storey_friction_energy", "input_energy")
 """Variables of a history that end with what a cube holds."""
 
@@ -86,7 +87,14 @@ def test_every_cell_is_its_history(cube: xr.Dataset) -> None:
         cell = cube.sel(record="b", building=name, stiffness_scale=stiffness, slip_scale=slip)
         for variable in (v for v in cell.data_vars if v in history):
             told = history[variable].isel(time=-1) if variable in OVER_TIME else history[variable]
-            np.testing.assert_array_equal(cell[variable], told, f"{variable} of {name}, {stiffness}, {slip}")
+            text = f"{variable} of {name}, {stiffness}, {slip}"
+            if variable in COUNTED:
+                np.testing.assert_array_equal(cell[variable], told, text)
+            elif variable == "energy_error":
+                assert cell[variable] < 1e-11, text
+            else:  # the cube's histories run side by side, in another engine
+                atol = 1e-12 * float(np.abs(told).max())
+                np.testing.assert_allclose(cell[variable], told, rtol=1e-12, atol=atol, err_msg=text)
         assert cell.slip_force.values.tolist() == history.slip_force.values.tolist()
         assert cell.kinetic_slip_force.values.tolist() == history.kinetic_slip_force.values.tolist()
 
@@ -123,17 +131,19 @@ def test_limits(cube: xr.Dataset) -> None:
         mixed.floor_mass, 40e6, mixed.brace_mass, mixed.brace_stiffness, [0.0, math.inf, math.inf],
         damping=mixed.damping,
     )  # fmt: skip
-    np.testing.assert_array_equal(
+    np.testing.assert_allclose(
         cube.braced_acceleration.sel(record="a", building="mixed", stiffness_scale=1.0),
         fdspec.simulate(locked, record("a")).peak_acceleration,
+        rtol=1e-12,
     )
     for name, building in unlike().items():
         bare = fdspec.Building(
             building.floor_mass, building.storey_stiffness, 0.0, 0.0, 0.0, damping=building.damping
         )
-        np.testing.assert_array_equal(
+        np.testing.assert_allclose(
             cube.elastic_acceleration.sel(record="a", building=name),
             fdspec.simulate(bare, record("a")).peak_acceleration,
+            rtol=1e-12,
         )
 
 

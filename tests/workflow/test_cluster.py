@@ -23,7 +23,7 @@ import fdspec
 from fdspec.cli import main
 from fdspec.errors import ClusterError, DiskError
 from fdspec.scheduling import cluster
-from fdspec.scheduling.threads import Task
+from fdspec.scheduling.task import Task
 from fdspec.store import chunks
 from tests.unit.test_sweep import record
 

@@ -25,6 +25,7 @@ from fdspec.kernels.batch.layout import (
     WIDTH,
     at,
 )
+from fdspec.kernels.friction import sliding_force
 from fdspec.kernels.mathematics.oscillator import series_order
 from fdspec.kernels.storey.bounds import floor_peaks
 from fdspec.kernels.storey.demands import step_brace_peak
@@ -122,7 +123,7 @@ def keep_crests(p, lane, plan, crests, ground, rate, floor, search):
         if phase == STICK:
             crest[BASE] = at(p, LIFT, lane) * at(p, OFFSET, lane)
         else:
-            crest[BASE] = -phase * at(p, PUSH_FLOOR, lane)
+            crest[BASE] = sliding_force(-phase, at(p, PUSH_FLOOR, lane))
         crest[GROUND] = ground
         crest[RATE] = rate
 

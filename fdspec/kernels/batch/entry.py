@@ -38,8 +38,7 @@ from fdspec.kernels.batch.uneventful import loss_lanes, slip_lanes, stick_lanes
 from fdspec.kernels.mathematics.oscillator import TERMS, step_map
 from fdspec.kernels.storey.constants import plan, steps_per_sample
 from fdspec.kernels.storey.energy import N_FORMS, put_losses
-from fdspec.kernels.storey.history import finish
-from fdspec.kernels.storey.rest import settle_at_rest
+from fdspec.kernels.storey.history import finish, settle_at_rest
 from fdspec.kernels.storey.step import come_to_rest, walk
 from fdspec.kernels.types import N_STATE, OK, PHASE, STATUS, STICK, Storey
 

@@ -71,6 +71,7 @@ from fdspec.kernels.batch.layout import (
     WIDTH,
     at,
 )
+from fdspec.kernels.friction import sliding_force
 from fdspec.kernels.mathematics.oscillator import acceleration, dot4
 from fdspec.kernels.mathematics.polynomial_roots import THIRD
 from fdspec.kernels.types import (
@@ -219,9 +220,9 @@ def slip_lanes(p, h, ground, rate):
         g = at(p, F_G, lane)
         w2 = at(p, F_W2, lane)
         solid = at(p, B_GROUND, lane)
-        base = -sign * at(p, PUSH_FLOOR, lane)
+        base = sliding_force(-sign, at(p, PUSH_FLOOR, lane))
         p0 = base - ground
-        b0 = sign * at(p, PUSH_BRACE, lane) - solid * ground
+        b0 = sliding_force(sign, at(p, PUSH_BRACE, lane)) - solid * ground
         b1 = solid * rate
         u1 = carry(p, F_MAP, lane, u, v, p0, rate)
         v1 = carry(p, F_MAP + 4, lane, u, v, p0, rate)
@@ -326,7 +327,7 @@ def loss_lanes(p, ground, rate, to_walk):
         u = at(p, FROM_U, lane)
         v = at(p, FROM_V, lane)
         p0 = at(p, LIFT, lane) * at(p, OFFSET, lane) - ground
-        f0 = -sign * at(p, PUSH_FLOOR, lane) - ground
+        f0 = sliding_force(-sign, at(p, PUSH_FLOOR, lane)) - ground
         one = at(p, S_DAMP, lane) * form(p, S_LOSS, lane, u, v, p0, -rate)
         two = at(p, F_DAMP, lane) * form(p, F_LOSS, lane, u, v, f0, -rate)
         done = two if sign != 0.0 else one

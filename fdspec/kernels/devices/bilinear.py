@@ -15,6 +15,7 @@ from fdspec.kernels.devices.guard import (
     clear_leading,
     first_pass,
     first_slip,
+    forces_at_stake,
     root_of,
     snap,
 )
@@ -32,7 +33,6 @@ from fdspec.kernels.devices.law import (
 )
 from fdspec.kernels.devices.layout import (
     ANCHOR,
-    BRACE,
     CONTACTS,
     KINETIC,
     KINKED,
@@ -60,12 +60,7 @@ def bilinear_guard(frame, law, state, series, j, n, signs, events):
     """Fraction of the step at which the link's mode ends; what ends it goes to events[j]."""
     events[j] = NOTHING
     if state.mode[PHASE, j] == STICK:
-        scale = (
-            abs(series.sliders[BRACE, j, 0])
-            + abs(law.constant[j])
-            + abs(law.across[j] * series.sliders[O, j, 0])
-        )
-        x = first_slip(frame, state, series, j, n, scale, signs)
+        x = first_slip(frame, state, series, j, n, forces_at_stake(frame, law, state, j), signs)
         if x < NO_ROOT:
             events[j] = SLIP
         return x

@@ -7,7 +7,16 @@ sliding velocity jumps, and no force does.
 from __future__ import annotations
 
 from fdspec.compiler.options import inner
-from fdspec.kernels.devices.guard import NOTHING, PASS, SLIP, STOP, first_pass, first_slip, first_stop
+from fdspec.kernels.devices.guard import (
+    NOTHING,
+    PASS,
+    SLIP,
+    STOP,
+    first_pass,
+    first_slip,
+    first_stop,
+    forces_at_stake,
+)
 from fdspec.kernels.devices.law import (
     constant_across,
     deformation,
@@ -17,7 +26,6 @@ from fdspec.kernels.devices.law import (
     stiffness_across,
 )
 from fdspec.kernels.devices.layout import (
-    BRACE,
     DAMPING,
     KINETIC,
     KINKED,
@@ -43,12 +51,7 @@ def dashpot_guard(frame, law, state, series, j, n, signs, events):
     """Fraction of the step at which the link's mode ends; what ends it goes to events[j]."""
     events[j] = NOTHING
     if state.mode[PHASE, j] == STICK:
-        scale = (
-            abs(series.sliders[BRACE, j, 0])
-            + abs(law.constant[j])
-            + abs(law.across[j] * series.sliders[O, j, 0])
-        )
-        x = first_slip(frame, state, series, j, n, scale, signs)
+        x = first_slip(frame, state, series, j, n, forces_at_stake(frame, law, state, j), signs)
         if x < NO_ROOT:
             events[j] = SLIP
         return x

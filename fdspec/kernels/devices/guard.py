@@ -11,7 +11,21 @@ import math
 
 from fdspec.compiler.options import inner
 from fdspec.kernels.devices.law import bound_ahead, friction_limit
-from fdspec.kernels.devices.layout import PHASE, REACTION, REGION, TOUCHING, VANISHING, O, Z
+from fdspec.kernels.devices.layout import (
+    DAMPING,
+    LOWER,
+    PHASE,
+    REACTION,
+    REGION,
+    STIFFNESS,
+    TOUCHING,
+    UPPER,
+    VANISHING,
+    O,
+    U,
+    V,
+    Z,
+)
 from fdspec.kernels.mathematics.polynomial_roots import NO_ROOT, first_root
 
 NOTHING = 0
@@ -22,7 +36,7 @@ STOP = 2
 PASS = 3
 """The offset reaches the end of its region."""
 
-ROUNDING = 64.0 * 2.0**-53
+ROUNDING = 16.0 * 2.0**-53
 """What a guard may be off by at its start, relative to the terms it is the difference of."""
 
 
@@ -49,6 +63,21 @@ def snap(c, scale):
     """Take a guard that starts at zero, to rounding, to start there."""
     if abs(c[0]) <= ROUNDING * scale:
         c[0] = 0.0
+
+
+@inner
+def forces_at_stake(frame, law, state, j):
+    """Sum of the magnitudes (N) of all that the reaction of a slider at rest is the difference of.
+
+    Displacements may be far larger than the deformation that they leave, and their rounding with them.
+    """
+    upper = frame.places[UPPER, j]
+    lower = frame.places[LOWER, j]
+    floors = state.floors
+    offset = abs(state.sliders[O, j])
+    scale = frame.links[STIFFNESS, j] * (abs(floors[U, upper]) + abs(floors[U, lower]) + offset)
+    scale += frame.links[DAMPING, j] * (abs(floors[V, upper]) + abs(floors[V, lower]))
+    return scale + abs(law.constant[j]) + abs(law.across[j]) * offset
 
 
 @inner

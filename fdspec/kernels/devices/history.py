@@ -14,6 +14,7 @@ import numpy as np
 from numba import types
 
 from fdspec.compiler.options import entry, float1d, float2d, float3d, inner
+from fdspec.compiler.positions import positions
 from fdspec.kernels.devices.energy import input_work, stored_energy, viscous_work, work_of_gravity
 from fdspec.kernels.devices.expand import expand
 from fdspec.kernels.devices.guards import first_collapse, first_event
@@ -30,7 +31,7 @@ from fdspec.kernels.devices.layout import (
     V,
 )
 from fdspec.kernels.devices.model import fastest_rate
-from fdspec.kernels.devices.output import state_at, write_traces
+from fdspec.kernels.devices.output import ENERGY, state_at, write_traces
 from fdspec.kernels.devices.peaks import raise_peaks
 from fdspec.kernels.devices.resets import begin, change_modes
 from fdspec.kernels.devices.tally import close_travel
@@ -73,6 +74,7 @@ TOTALS = (
     "collapse_time",
 )
 """Entries of ``totals`` (8,)."""
+TOTAL = positions(TOTALS)
 
 
 @inner
@@ -136,7 +138,7 @@ def history(
     happened = 0
     still = 0
     steps = ground.size - 1
-    totals[6] = -1.0
+    totals[TOTAL.collapse_storey] = -1.0
     for step in range(steps + free_steps):
         a0 = 0.0
         slope = 0.0
@@ -169,8 +171,12 @@ def history(
                     if at > reached and not (final and at <= reached + 1e-6 * dt):
                         break
                     y = min(max((at - tau) / h, 0.0), done)
-                    energies[written, 0] = work_in + input_work(series.momentum, n, h, acceleration, rise, y)
-                    energies[written, 1] = viscous + viscous_work(frame, series, n, h, y, speeds)
+                    energies[written, ENERGY.input_energy] = work_in + input_work(
+                        series.momentum, n, h, acceleration, rise, y
+                    )
+                    energies[written, ENERGY.viscous_energy] = viscous + viscous_work(
+                        frame, series, n, h, y, speeds
+                    )
                     write_traces(
                         frame, state, then, series, n, h, y, floor_traces, link_traces, energies, written
                     )
@@ -189,8 +195,8 @@ def history(
                 tau += h * done
             if collapses:
                 status = COLLAPSED
-                totals[6] = storey
-                totals[7] = step * dt + tau
+                totals[TOTAL.collapse_storey] = storey
+                totals[TOTAL.collapse_time] = step * dt + tau
                 break
             if not happens:
                 if parts == 1:
@@ -224,12 +230,12 @@ def history(
         status = NON_FINITE_STATE
     elif status == OK and error > ENERGY_TOLERANCE:
         status = ENERGY_NOT_CLOSED
-    totals[0] = logged
-    totals[1] = viscous
-    totals[2] = work_in
-    totals[3] = gravity
-    totals[4] = error
-    totals[5] = status
+    totals[TOTAL.events] = logged
+    totals[TOTAL.viscous_energy] = viscous
+    totals[TOTAL.input_energy] = work_in
+    totals[TOTAL.gravity_energy] = gravity
+    totals[TOTAL.energy_error] = error
+    totals[TOTAL.status] = status
 
 
 @entry(

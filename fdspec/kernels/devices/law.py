@@ -31,6 +31,7 @@ from fdspec.kernels.devices.layout import (
     UPPER,
     U,
 )
+from fdspec.kernels.friction import friction_work, sliding_force
 
 BEARING = 2
 """Magnitude of the regions beyond the slot's ends."""
@@ -102,7 +103,7 @@ def constant_across(frame, j, region, sign):
     if abs(region) == BEARING:
         force -= side(region) * frame.links[SLOT_STIFFNESS, j] * frame.links[SLOT_LENGTH, j]
     if sign != 0:
-        force += sign * frame.links[KINETIC, j]
+        force += sliding_force(sign, frame.links[KINETIC, j])
     return force
 
 
@@ -144,9 +145,9 @@ def bearing_energy(frame, j, region, offset):
 
 
 @inner
-def friction_work(frame, j, start, end):
+def work_of_friction(frame, j, start, end):
     """Energy (J) that friction in motion takes on the way between two offsets of one region."""
-    work = frame.links[KINETIC, j] * abs(end - start)
+    work = friction_work(frame.links[KINETIC, j], abs(end - start))
     growth = frame.links[FRICTION_GROWTH, j]
     if growth > 0.0:
         work += 0.5 * growth * abs(end * end - start * start)

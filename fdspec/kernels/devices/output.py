@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fdspec.compiler.options import inner
+from fdspec.compiler.positions import positions
 from fdspec.kernels.devices.energy import energy_in_bearing, kinetic_energy, strain_energy, work_of_gravity
 from fdspec.kernels.devices.layout import (
     BRACE,
@@ -22,14 +23,17 @@ from fdspec.kernels.devices.layout import (
 )
 from fdspec.kernels.devices.peaks import storey_shear
 from fdspec.kernels.devices.tally import travel_since, work_since
+from fdspec.kernels.friction import sliding_force
 from fdspec.kernels.mathematics.polynomial_roots import value
 from fdspec.kernels.types import STICK
 
 FLOOR_TRACES = ("displacement", "velocity", "acceleration", "storey_shear")
 """Columns of ``floor_traces`` (m, 4, N)."""
+FLOOR = positions(FLOOR_TRACES)
 
 LINK_TRACES = ("offset", "sliding_velocity", "friction_force", "force", "phase", "travel", "work")
 """Columns of ``link_traces`` (m, 7, L)."""
+LINK = positions(LINK_TRACES)
 
 TOTAL_TRACES = (
     "input_energy",
@@ -40,6 +44,7 @@ TOTAL_TRACES = (
     "gravity_energy",
 )
 """Columns of ``energies`` (m, 6)."""
+ENERGY = positions(TOTAL_TRACES)
 
 
 @inner
@@ -61,11 +66,11 @@ def write_traces(frame, state, then, series, n, h, y, floor_traces, link_traces,
     """
     state_at(series, n, y, then.floors, then.sliders)
     for i in range(1, frame.mass.size):
-        floor_traces[row, 0, i - 1] = then.floors[U, i]
-        floor_traces[row, 1, i - 1] = then.floors[V, i]
-        floor_traces[row, 2, i - 1] = value(series.floors[A, i], n - 1, y)
+        floor_traces[row, FLOOR.displacement, i - 1] = then.floors[U, i]
+        floor_traces[row, FLOOR.velocity, i - 1] = then.floors[V, i]
+        floor_traces[row, FLOOR.acceleration, i - 1] = value(series.floors[A, i], n - 1, y)
         storey_shear(frame, series, n, h, i, series.c)
-        floor_traces[row, 3, i - 1] = value(series.c, n - 1, y)
+        floor_traces[row, FLOOR.storey_shear, i - 1] = value(series.c, n - 1, y)
     for j in range(frame.places.shape[1]):
         offset = then.sliders[O, j]
         phase = state.mode[PHASE, j]
@@ -75,15 +80,17 @@ def write_traces(frame, state, then, series, n, h, y, floor_traces, link_traces,
             if phase == STICK:
                 friction = value(series.sliders[REACTION, j], n - 1, y)
             else:
-                friction = phase * (frame.links[KINETIC, j] + frame.links[FRICTION_GROWTH, j] * abs(offset))
-        link_traces[row, 0, j] = offset
-        link_traces[row, 1, j] = then.sliders[Z, j]
-        link_traces[row, 2, j] = friction
-        link_traces[row, 3, j] = force
-        link_traces[row, 4, j] = phase
-        link_traces[row, 5, j] = state.tally[TRAVEL, j] + travel_since(frame, state, j, offset)
-        link_traces[row, 6, j] = state.tally[WORK, j] + work_since(frame, state, j, offset)
-    energies[row, 2] = kinetic_energy(frame, then)
-    energies[row, 3] = strain_energy(frame, then)
-    energies[row, 4] = energy_in_bearing(frame, then)
-    energies[row, 5] = work_of_gravity(frame, then)
+                friction = sliding_force(
+                    phase, frame.links[KINETIC, j] + frame.links[FRICTION_GROWTH, j] * abs(offset)
+                )
+        link_traces[row, LINK.offset, j] = offset
+        link_traces[row, LINK.sliding_velocity, j] = then.sliders[Z, j]
+        link_traces[row, LINK.friction_force, j] = friction
+        link_traces[row, LINK.force, j] = force
+        link_traces[row, LINK.phase, j] = phase
+        link_traces[row, LINK.travel, j] = state.tally[TRAVEL, j] + travel_since(frame, state, j, offset)
+        link_traces[row, LINK.work, j] = state.tally[WORK, j] + work_since(frame, state, j, offset)
+    energies[row, ENERGY.kinetic_energy] = kinetic_energy(frame, then)
+    energies[row, ENERGY.strain_energy] = strain_energy(frame, then)
+    energies[row, ENERGY.bearing_energy] = energy_in_bearing(frame, then)
+    energies[row, ENERGY.gravity_energy] = work_of_gravity(frame, then)

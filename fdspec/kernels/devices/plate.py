@@ -3,10 +3,18 @@
 from __future__ import annotations
 
 from fdspec.compiler.options import inner
-from fdspec.kernels.devices.guard import NOTHING, PASS, SLIP, STOP, first_pass, first_slip, first_stop
+from fdspec.kernels.devices.guard import (
+    NOTHING,
+    PASS,
+    SLIP,
+    STOP,
+    first_pass,
+    first_slip,
+    first_stop,
+    forces_at_stake,
+)
 from fdspec.kernels.devices.law import bound_ahead, enter_region, meets_bearing, slides_freely
 from fdspec.kernels.devices.layout import (
-    BRACE,
     CONTACTS,
     KINETIC,
     MASS,
@@ -30,13 +38,8 @@ def plate_guard(frame, law, state, series, j, n, signs, events):
     """Fraction of the step at which the plate's mode ends; what ends it goes to events[j]."""
     events[j] = NOTHING
     if state.mode[PHASE, j] == STICK:
-        upper = frame.places[UPPER, j]
-        scale = (
-            abs(series.sliders[BRACE, j, 0])
-            + abs(law.constant[j])
-            + abs(law.across[j] * series.sliders[O, j, 0])
-            + frame.links[MASS, j] * abs(series.floors[A, upper, 0])
-        )
+        scale = forces_at_stake(frame, law, state, j)
+        scale += frame.links[MASS, j] * abs(series.floors[A, frame.places[UPPER, j], 0])
         x = first_slip(frame, state, series, j, n, scale, signs)
         if x < NO_ROOT:
             events[j] = SLIP

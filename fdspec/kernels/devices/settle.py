@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 
 from fdspec.compiler.options import inner
-from fdspec.kernels.devices.guard import ROUNDING
+from fdspec.kernels.devices.guard import ROUNDING, forces_at_stake
 from fdspec.kernels.devices.law import force_across, friction_limit
 from fdspec.kernels.devices.layout import (
     BRACE,
@@ -34,6 +34,7 @@ from fdspec.kernels.devices.layout import (
     A,
     O,
 )
+from fdspec.kernels.friction import sliding_force
 from fdspec.kernels.types import STICK
 
 FIXED = 0
@@ -65,7 +66,8 @@ def settle(frame, law, state, series, node, roles):
             held = held_force(frame, state, series, j)
             reaction = frame.links[MASS, j] * acceleration + held
             limit = friction_limit(frame, state, j)
-            near = ROUNDING * (limit + abs(held) + abs(reaction)) if limit < math.inf else 0.0
+            stake = limit + abs(held) + abs(reaction) + forces_at_stake(frame, law, state, j)
+            near = ROUNDING * stake if limit < math.inf else 0.0
             state.mode[TOUCHING, j] = 0
             state.mode[VANISHING, j] = 0
             if abs(reaction) <= limit + near:
@@ -130,7 +132,7 @@ def excess_of(frame, state, series, node, roles, balance, acceleration):
 @inner
 def across_moving(frame, state, j):
     """Friction (N) of a plate in motion."""
-    return state.mode[PHASE, j] * frame.links[KINETIC, j]
+    return sliding_force(state.mode[PHASE, j], frame.links[KINETIC, j])
 
 
 @inner

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fdspec.compiler.options import inner
-from fdspec.kernels.devices.law import friction_work
+from fdspec.kernels.devices.law import work_of_friction
 from fdspec.kernels.devices.layout import (
     ANCHOR,
     KIND,
@@ -24,7 +24,7 @@ def work_since(frame, state, j, offset):
         return 0.0
     if frame.places[KIND, j] == ONE_SIDED:
         return frame.links[STATIC, j] * (offset - state.tally[ANCHOR, j]) if state.mode[PHASE, j] > 0 else 0.0
-    return friction_work(frame, j, state.tally[ANCHOR, j], offset)
+    return work_of_friction(frame, j, state.tally[ANCHOR, j], offset)
 
 
 @inner

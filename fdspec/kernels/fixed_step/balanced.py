@@ -19,6 +19,7 @@ import math
 from numba import types
 
 from fdspec.compiler.options import entry, float1d, float2d, inner
+from fdspec.kernels.friction import sliding_force
 from fdspec.kernels.types import ITERATION_NOT_CONVERGED, NON_FINITE_STATE, OK, STICK
 
 HELD, OFFSET = 0, 1
@@ -100,9 +101,9 @@ def march(a, pull, b0, b1, y, s, spring, static, kinetic, ground, parts, kind, s
                     phase = outcome(trial, phases[k, i], static[i], kinetic[i])
                     phases[k + 1, i] = phase
                     if kind == OFFSET:
-                        new = 0.0 if phase == STICK else (trial - phase * kinetic[i]) / s[i, i]
+                        new = 0.0 if phase == STICK else (trial - sliding_force(phase, kinetic[i])) / s[i, i]
                     else:
-                        new = trial if phase == STICK else phase * kinetic[i]
+                        new = trial if phase == STICK else sliding_force(phase, kinetic[i])
                     if not abs(new - after[i]) <= BALANCE * max(abs(new), abs(w[i])):
                         settled = False
                     after[i] = new

@@ -14,6 +14,8 @@ import numpy as np
 from numba import types
 
 from fdspec.compiler.options import entry, float1d, float2d, float3d, inlined, inner, int1d
+from fdspec.compiler.positions import positions
+from fdspec.kernels.friction import sliding_force
 from fdspec.kernels.types import ITERATION_NOT_CONVERGED, NON_FINITE_STATE, OK, STICK
 
 MOST_ITERATIONS = 1000
@@ -34,7 +36,9 @@ STOREY_TRACES = (
     "storey_friction_energy",
     "storey_shear",
 )
+TRACE = positions(STOREY_TRACES)
 TOTAL_TRACES = ("input_energy", "viscous_energy")
+ENERGY = positions(TOTAL_TRACES)
 STOREY_RESULTS = (
     "peak_acceleration",
     "peak_displacement",
@@ -47,8 +51,10 @@ STOREY_RESULTS = (
     "peak_brace_force",
     "peak_column_shear",
 )
+RESULT = positions(STOREY_RESULTS)
 TOTALS = ("transitions", "dissipated_energy", "energy_error", "status", "evaluations")
 """What a history of all storeys leaves behind; evaluations of (36), one a step if nothing had to iterate."""
+TOTAL = positions(TOTALS)
 
 U, V, A, D, E, B, R = range(7)
 """Rows of a state (7, N): floor displacement, velocity and acceleration, the same of the brace, friction."""
@@ -166,7 +172,7 @@ def balance(storeys, stiffness, damping, phase, x, ground):
     """Set forces and accelerations to the equilibrium of the present phases; each interval begins so."""
     for i in range(x.shape[1]):
         if phase[i] != STICK:
-            x[R, i] = phase[i] * storeys[KINETIC_SLIP_FORCE, i]
+            x[R, i] = sliding_force(phase[i], storeys[KINETIC_SLIP_FORCE, i])
         else:
             x[E, i] = x[V, i]
             x[R, i] = 0.0
@@ -202,15 +208,16 @@ def raise_peaks(storeys, stiffness, x, ground, results):
         absolute = x[A, i] + ground
         shear -= storeys[FLOOR_MASS, i] * absolute + storeys[BRACE_MASS, i] * (x[B, i] + ground)
         drift = x[U, i] - (x[U, i - 1] if i > 0 else 0.0)
-        results[0, i] = max(results[0, i], abs(absolute))
-        results[1, i] = max(results[1, i], abs(x[U, i]))
-        results[2, i] = max(results[2, i], abs(x[V, i]))
-        results[3, i] = max(results[3, i], abs(drift))
-        results[4, i] = max(results[4, i], abs(shear))
+        results[RESULT.peak_acceleration, i] = max(results[RESULT.peak_acceleration, i], abs(absolute))
+        results[RESULT.peak_displacement, i] = max(results[RESULT.peak_displacement, i], abs(x[U, i]))
+        results[RESULT.peak_velocity, i] = max(results[RESULT.peak_velocity, i], abs(x[V, i]))
+        results[RESULT.peak_drift, i] = max(results[RESULT.peak_drift, i], abs(drift))
+        results[RESULT.peak_storey_shear, i] = max(results[RESULT.peak_storey_shear, i], abs(shear))
         if storeys[BRACE_STIFFNESS, i] > 0.0:
-            results[6, i] = max(results[6, i], abs(x[U, i] - x[D, i]))
-            results[8, i] = max(results[8, i], abs(brace_force(storeys, x, i)))
-        results[9, i] = max(results[9, i], abs(columns))
+            slip, force = x[U, i] - x[D, i], brace_force(storeys, x, i)
+            results[RESULT.peak_slip, i] = max(results[RESULT.peak_slip, i], abs(slip))
+            results[RESULT.peak_brace_force, i] = max(results[RESULT.peak_brace_force, i], abs(force))
+        results[RESULT.peak_column_shear, i] = max(results[RESULT.peak_column_shear, i], abs(columns))
 
 
 @inlined
@@ -243,16 +250,16 @@ def stored(storeys, stiffness, x):
 def tell(storeys, phase, x, ground, slipped, weight, row):
     """Add ``weight`` times this state to a row (len(STOREY_TRACES), N) of the course in time."""
     for i in range(x.shape[1]):
-        row[0, i] += weight * x[U, i]
-        row[1, i] += weight * x[V, i]
-        row[2, i] += weight * (x[A, i] + ground)
-        row[3, i] += weight * x[D, i]
-        row[4, i] += weight * x[E, i]
-        row[5, i] += weight * x[R, i]
-        row[6, i] = phase[i]
-        row[7, i] += weight * slipped[0, i]
-        row[8, i] += weight * slipped[1, i]
-        row[9, i] += weight * storey_shear(storeys, x, ground, i)
+        row[TRACE.displacement, i] += weight * x[U, i]
+        row[TRACE.velocity, i] += weight * x[V, i]
+        row[TRACE.acceleration, i] += weight * (x[A, i] + ground)
+        row[TRACE.brace_displacement, i] += weight * x[D, i]
+        row[TRACE.brace_velocity, i] += weight * x[E, i]
+        row[TRACE.friction_force, i] += weight * x[R, i]
+        row[TRACE.phase, i] = phase[i]
+        row[TRACE.slip_travel, i] += weight * slipped[0, i]
+        row[TRACE.storey_friction_energy, i] += weight * slipped[1, i]
+        row[TRACE.storey_shear, i] += weight * storey_shear(storeys, x, ground, i)
 
 
 @entry(
@@ -372,8 +379,8 @@ def integrate(
                 traces[told] = 0.0
                 tell(storeys, phase, x, begin, before, 1.0 - share, traces[told])
                 tell(storeys, phase, new, end, slipped, share, traces[told])
-                energies[told, 0] = given_before + share * (work[0] - given_before)
-                energies[told, 1] = lost_before + share * (work[1] - lost_before)
+                energies[told, ENERGY.input_energy] = given_before + share * (work[0] - given_before)
+                energies[told, ENERGY.viscous_energy] = lost_before + share * (work[1] - lost_before)
                 told += 1
             x, new = new, x
             raise_peaks(storeys, stiffness, x, end, results)
@@ -398,13 +405,13 @@ def integrate(
             break
     friction = 0.0
     for i in range(n):
-        results[5, i] = x[U, i]
-        results[7, i] = x[U, i] - x[D, i] if storeys[BRACE_STIFFNESS, i] > 0.0 else 0.0
+        results[RESULT.residual_displacement, i] = x[U, i]
+        results[RESULT.residual_slip, i] = x[U, i] - x[D, i] if storeys[BRACE_STIFFNESS, i] > 0.0 else 0.0
         friction += slipped[1, i]
     missing = work[0] + at_start - stored(storeys, stiffness, x) - work[1] - friction
     scale = abs(work[0]) + at_start
-    totals[0] = changes
-    totals[1] = friction
-    totals[2] = abs(missing) / scale if scale > 0.0 else 0.0
-    totals[3] = status
-    totals[4] = evaluations
+    totals[TOTAL.transitions] = changes
+    totals[TOTAL.dissipated_energy] = friction
+    totals[TOTAL.energy_error] = abs(missing) / scale if scale > 0.0 else 0.0
+    totals[TOTAL.status] = status
+    totals[TOTAL.evaluations] = evaluations

@@ -28,9 +28,7 @@ from fdspec.kernels.mathematics.polynomial_roots import largest_magnitude
 PEAK_SLIP = 0
 PEAK_BRACE_FORCE = 1
 PEAK_COLUMN_SHEAR = 2
-RESIDUAL_SLIP = 3
-DEMAND_ROWS = 4
-"""Rows of ``demands`` (4, N): m, N, N, m."""
+"""Rows of ``demands`` (DEMAND_ROWS, N): m, N, N."""
 
 
 @inner
@@ -111,12 +109,11 @@ def has_only_columns(frame, dense_stiffness):
 
 
 @inner
-def finish_demands(frame, only_columns, state, peaks, demands):
-    """Fill in what follows from the end and from other peaks.
+def finish_demands(frame, only_columns, peaks, demands):
+    """Fill in what follows from other peaks.
 
     Columns that are springs between neighbours carry as much as the drift makes of them.
     """
-    for i in range(state.shape[1]):
-        demands[RESIDUAL_SLIP, i] = state[OFFSET, i]
-        if only_columns:
+    if only_columns:
+        for i in range(demands.shape[1]):
             demands[PEAK_COLUMN_SHEAR, i] = frame[STOREY_STIFFNESS, i] * peaks[PEAK_DRIFT, i]

@@ -16,7 +16,6 @@ from numba import types
 
 from fdspec.compiler.options import entry, float1d, float2d, float3d, inner, int1d
 from fdspec.kernels.frame.demands import (
-    DEMAND_ROWS,
     finish_demands,
     has_only_columns,
     raise_column_shears,
@@ -27,9 +26,9 @@ from fdspec.kernels.frame.energy import (
     stored_energy,
     viscous_work,
 )
+from fdspec.kernels.frame.finish import fill_storeys, fill_totals
 from fdspec.kernels.frame.groups_of_four import LANES
 from fdspec.kernels.frame.model import (
-    KINETIC_SLIP_FORCE,
     MASSLESS,
     MODEL_ROWS,
     NO_BRACE,
@@ -44,17 +43,16 @@ from fdspec.kernels.frame.model import (
     rate_of,
     set_phase,
 )
-from fdspec.kernels.frame.output import write_traces
+from fdspec.kernels.frame.output import ENERGY, write_traces
 from fdspec.kernels.frame.peaks import PEAK_ROWS, raise_peaks
 from fdspec.kernels.frame.reset import (
-    RELEASE,
     TALLY_ROWS,
     begin_free,
     begin_slip,
     returns_at_once,
     stay_sprung,
-    travel_so_far,
 )
+from fdspec.kernels.frame.results import COUNTS, DEMAND_ROWS, DEMANDS, END, END_ROWS, NO_TIME
 from fdspec.kernels.frame.step import change_phases, look_ahead
 from fdspec.kernels.frame.taylor import (
     DISPLACEMENT,
@@ -80,43 +78,6 @@ from fdspec.kernels.types import (
 
 given1d = types.Array(types.float64, 1, "C", readonly=True)
 given2d = types.Array(types.float64, 2, "C", readonly=True)
-
-RADIANS = 2.5
-"""Longest phase of a step; no result depends on it."""
-
-STOREY_RESULTS = (
-    "peak_acceleration",
-    "peak_displacement",
-    "peak_velocity",
-    "peak_drift",
-    "peak_storey_shear",
-    "peak_brace_displacement",
-    "residual_displacement",
-    "residual_brace_displacement",
-    "slip_travel",
-    "storey_transitions",
-    "storey_friction_energy",
-    "peak_slip",
-    "peak_brace_force",
-    "peak_column_shear",
-    "residual_slip",
-)
-"""First rows of ``by_storey`` (22, N); the first six of them are the peaks, the last four the demands."""
-
-DEMANDS = len(STOREY_RESULTS) - DEMAND_ROWS
-END = len(STOREY_RESULTS)
-END_ROWS = 7
-"""First row and number of the rows that follow, the state at the end: displacement, velocity, offset, sliding
-velocity, phase, and how the next segment begins."""
-
-COUNTS = 9
-"""Row of the number of changes of phase."""
-
-TOTALS = ("transitions", "dissipated_energy", "viscous_energy", "input_energy", "energy_error", "status")
-"""Entries of ``totals`` (6,)."""
-
-NO_TIME = 1e-13
-"""Fraction of a record step that counts as its end."""
 
 
 @inner
@@ -294,8 +255,10 @@ def history(
                     if at > reached and not (final and at <= reached + 1e-6 * dt):
                         break
                     y = min(max((at - tau) / h, 0.0), done)
-                    energies[written, 0] = work_in + input_work(momentum, n, h, acceleration, rise, y)
-                    energies[written, 1] = viscous + viscous_work(
+                    energies[written, ENERGY.input_energy] = work_in + input_work(
+                        momentum, n, h, acceleration, rise, y
+                    )
+                    energies[written, ENERGY.viscous_energy] = viscous + viscous_work(
                         frame, dense_damping, damped, series, n, h, y, speeds
                     )
                     write_traces(
@@ -367,18 +330,9 @@ def history(
         if status != OK:
             break
 
-    finish_demands(frame, only_columns, state, peaks, demands)
-    friction = 0.0
+    friction = fill_storeys(frame, phase, state, tally, by_storey)
+    finish_demands(frame, only_columns, peaks, demands)
     for i in range(size):
-        travel = travel_so_far(phase, state[OFFSET, i], tally, i)
-        work = tally[RELEASE, i]
-        if travel > 0.0:
-            work += frame[KINETIC_SLIP_FORCE, i] * travel
-        friction += work
-        by_storey[6, i] = state[DISPLACEMENT, i]
-        by_storey[7, i] = state[DISPLACEMENT, i] - state[OFFSET, i]
-        by_storey[8, i] = travel
-        by_storey[10, i] = work
         for k in range(4):
             by_storey[END + k, i] = state[k, i]
         by_storey[END + 4, i] = phase[i]
@@ -397,12 +351,7 @@ def history(
             status = NON_FINITE_STATE
         elif error > ENERGY_TOLERANCE:
             status = ENERGY_NOT_CLOSED
-    totals[0] = transitions
-    totals[1] = friction
-    totals[2] = viscous
-    totals[3] = work_in
-    totals[4] = error
-    totals[5] = status
+    fill_totals(transitions, friction, viscous, work_in, error, status, totals)
 
 
 @inner

@@ -24,6 +24,7 @@ from __future__ import annotations
 import math
 
 from fdspec.compiler.options import inner
+from fdspec.kernels.friction import sliding_force
 from fdspec.kernels.types import STICK
 
 FLOOR_MASS = 0
@@ -117,7 +118,7 @@ def set_phase(frame, model, phase, i):
         model[HELD, i] = 1.0
         model[FRICTION, i] = 0.0
         return
-    force = phase[i] * frame[KINETIC_SLIP_FORCE, i]
+    force = sliding_force(phase[i], frame[KINETIC_SLIP_FORCE, i])
     model[COMPLIANCE, i] = 1.0 / floor
     model[HELD, i] = 0.0
     model[FRICTION, i] = force

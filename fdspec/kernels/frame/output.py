@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fdspec.compiler.options import inner
+from fdspec.compiler.positions import positions
 from fdspec.kernels.frame.energy import kinetic_energy, strain_energy
 from fdspec.kernels.frame.model import KINETIC_SLIP_FORCE
 from fdspec.kernels.frame.peaks import storey_shear
@@ -16,6 +17,7 @@ from fdspec.kernels.frame.taylor import (
     VELOCITY,
     end_of_step,
 )
+from fdspec.kernels.friction import friction_work, sliding_force
 from fdspec.kernels.mathematics.polynomial_roots import value
 from fdspec.kernels.types import STICK
 
@@ -32,9 +34,11 @@ STOREY_TRACES = (
     "storey_friction_energy",
 )
 """Columns of ``traces`` (m, 10, N)."""
+TRACE = positions(STOREY_TRACES)
 
 TOTAL_TRACES = ("input_energy", "viscous_energy", "kinetic_energy", "strain_energy")
 """Columns of ``energies`` (m, 4)."""
+ENERGY = positions(TOTAL_TRACES)
 
 
 @inner
@@ -47,22 +51,23 @@ def write_traces(frame, dense_stiffness, phase, series, n, h, y, tally, motion, 
     size = frame.shape[1]
     end_of_step(series, n, y, motion)
     for i in range(size):
-        traces[row, 0, i] = motion[DISPLACEMENT, i]
-        traces[row, 1, i] = motion[VELOCITY, i]
-        traces[row, 2, i] = value(series[INERTIA, i + 1], n - 1, y)
+        traces[row, TRACE.displacement, i] = motion[DISPLACEMENT, i]
+        traces[row, TRACE.velocity, i] = motion[VELOCITY, i]
+        traces[row, TRACE.acceleration, i] = value(series[INERTIA, i + 1], n - 1, y)
         storey_shear(frame, series, n, h, i, c)
-        traces[row, 3, i] = value(c, n - 1, y)
-        traces[row, 4, i] = motion[DISPLACEMENT, i] - motion[OFFSET, i]
-        traces[row, 5, i] = motion[VELOCITY, i] - motion[SLIDING, i]
-        force = phase[i] * frame[KINETIC_SLIP_FORCE, i]
+        traces[row, TRACE.storey_shear, i] = value(c, n - 1, y)
+        traces[row, TRACE.brace_displacement, i] = motion[DISPLACEMENT, i] - motion[OFFSET, i]
+        traces[row, TRACE.brace_velocity, i] = motion[VELOCITY, i] - motion[SLIDING, i]
+        force = sliding_force(phase[i], frame[KINETIC_SLIP_FORCE, i])
         if phase[i] == STICK:
             force = value(series[REACTION, i + 1], n - 1, y)
-        traces[row, 6, i] = force
-        traces[row, 7, i] = phase[i]
+        traces[row, TRACE.friction_force, i] = force
+        traces[row, TRACE.phase, i] = phase[i]
         travel = travel_so_far(phase, motion[OFFSET, i], tally, i)
-        traces[row, 8, i] = travel
-        traces[row, 9, i] = tally[RELEASE, i]
+        traces[row, TRACE.slip_travel, i] = travel
+        work = tally[RELEASE, i]
         if travel > 0.0:
-            traces[row, 9, i] += frame[KINETIC_SLIP_FORCE, i] * travel
-    energies[row, 2] = kinetic_energy(frame, motion)
-    energies[row, 3] = strain_energy(frame, dense_stiffness, motion)
+            work += friction_work(frame[KINETIC_SLIP_FORCE, i], travel)
+        traces[row, TRACE.storey_friction_energy, i] = work
+    energies[row, ENERGY.kinetic_energy] = kinetic_energy(frame, motion)
+    energies[row, ENERGY.strain_energy] = strain_energy(frame, dense_stiffness, motion)

@@ -32,7 +32,7 @@ from fdspec.kernels.frame.model import (
     SLIP_FORCE,
 )
 from fdspec.kernels.frame.taylor import DISPLACEMENT, OFFSET, SLIDING, VELOCITY
-from fdspec.kernels.friction import GOES_ON, phase_after_stop
+from fdspec.kernels.friction import GOES_ON, phase_after_stop, sliding_force
 from fdspec.kernels.types import STICK
 
 ANCHOR = 0
@@ -77,7 +77,7 @@ def begin_slip(frame, kind, phase, fresh, state, tally, i, sign, stood):
     else:
         drift_rate = state[VELOCITY, i] - (state[VELOCITY, i - 1] if i > 0 else 0.0)
         fresh[i] = 1 if stood and static == kinetic and sign * drift_rate <= 0.0 else 0
-        spring_back(frame, state, tally, i, sign * kinetic / frame[BRACE_STIFFNESS, i])
+        spring_back(frame, state, tally, i, sliding_force(sign, kinetic) / frame[BRACE_STIFFNESS, i])
 
 
 @inner
@@ -153,7 +153,7 @@ def end_slip(frame, kind, phase, fresh, touching, state, tally, i, held):
         fresh[i] = 1
         return False
     if kind[i] == MASSLESS:
-        held = sign * frame[KINETIC_SLIP_FORCE, i]
+        held = sliding_force(sign, frame[KINETIC_SLIP_FORCE, i])
     after = phase_after_stop(sign, held, frame[SLIP_FORCE, i])
     if after == GOES_ON:
         fresh[i] = 1

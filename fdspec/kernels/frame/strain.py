@@ -16,7 +16,7 @@ from numba import types
 from fdspec.compiler.options import entry, float1d, inner
 from fdspec.kernels.frame.energy import strain_energy
 from fdspec.kernels.frame.groups_of_four import LANES
-from fdspec.kernels.frame.history import NO_TIME, given1d, given2d, widen
+from fdspec.kernels.frame.history import given1d, given2d, widen
 from fdspec.kernels.frame.model import (
     BRACE_STIFFNESS,
     GROUND_STIFFNESS,
@@ -35,6 +35,7 @@ from fdspec.kernels.frame.model import (
     set_phase,
 )
 from fdspec.kernels.frame.reset import TALLY_ROWS, begin_slip
+from fdspec.kernels.frame.results import NO_TIME
 from fdspec.kernels.frame.step import change_phases, look_ahead
 from fdspec.kernels.frame.taylor import (
     DISPLACEMENT,
@@ -48,6 +49,7 @@ from fdspec.kernels.frame.taylor import (
 )
 from fdspec.kernels.mathematics.polynomial_roots import largest_magnitude
 from fdspec.kernels.mathematics.quadrature import NODES, WEIGHTS
+from fdspec.kernels.storey.strain import STRAIN
 from fdspec.kernels.types import NON_FINITE_STATE, OK, TRANSITION_CAP, TRANSITION_CAP_REACHED
 
 
@@ -255,9 +257,9 @@ def strain_of_history(
             status = NON_FINITE_STATE
         if status != OK:
             break
-    result[0] = total
-    result[1] = most
-    result[2] = status
+    result[STRAIN.strain_energy_area] = total
+    result[STRAIN.peak_strain_energy] = most
+    result[STRAIN.status] = status
 
 
 @entry(types.void(given2d, given2d, given2d, given1d, types.float64, types.float64, float1d))

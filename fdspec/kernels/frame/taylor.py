@@ -52,6 +52,7 @@ from fdspec.kernels.frame.model import (
     SLIP_RATE,
     SPRING,
 )
+from fdspec.kernels.friction import sliding_force
 from fdspec.kernels.types import STICK
 
 TERMS = 40
@@ -339,7 +340,7 @@ def excess_of(frame, phase, state, i):
     The second is ample: the excess is a difference of displacements, which are sums of terms of a series.
     """
     below = state[DISPLACEMENT, i - 1] if i > 0 else 0.0
-    stretch = phase[i] * frame[KINETIC_SLIP_FORCE, i] / frame[BRACE_STIFFNESS, i]
+    stretch = sliding_force(phase[i], frame[KINETIC_SLIP_FORCE, i]) / frame[BRACE_STIFFNESS, i]
     size = abs(state[DISPLACEMENT, i]) + abs(below) + abs(state[OFFSET, i]) + abs(stretch)
     return state[DISPLACEMENT, i] - below - state[OFFSET, i] - stretch, UNRESOLVED * size
 
@@ -372,7 +373,7 @@ def follow_drift(frame, model, state, fresh, phase, n, h, series, i):
     The stretch is s F / k_d, towards which it relaxes at the rate k_d / c_d where there is a dashpot.
     """
     stiffness = frame[BRACE_STIFFNESS, i]
-    stretch = phase[i] * frame[KINETIC_SLIP_FORCE, i] / stiffness
+    stretch = sliding_force(phase[i], frame[KINETIC_SLIP_FORCE, i]) / stiffness
     excess = 0.0
     decay = 0.0
     rate = 0.0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fdspec.compiler.options import fma, inlined, inner
+from fdspec.kernels.friction import sliding_force
 from fdspec.kernels.mathematics.extremum import floor_weights, top_inside
 from fdspec.kernels.mathematics.oscillator import acceleration, expand
 from fdspec.kernels.mathematics.polynomial_roots import TAIL, THIRD, largest_magnitude
@@ -21,7 +22,7 @@ def forcing(plan, phase, offset, acceleration, rate):
     if phase == STICK:
         return Force(plan.lift * offset - acceleration, -rate, 0.0, 0.0)
     storey = plan.storey
-    push = phase * storey.kinetic_slip_force
+    push = sliding_force(phase, storey.kinetic_slip_force)
     floor = -acceleration - push / storey.floor_mass
     if storey.brace_mass > 0.0:
         return Force(floor, -rate, push / storey.brace_mass - acceleration, -rate)

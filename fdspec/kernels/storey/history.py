@@ -10,9 +10,10 @@ from __future__ import annotations
 import math
 
 from fdspec.compiler.options import inner
-from fdspec.kernels.friction import reaction
+from fdspec.compiler.positions import positions
+from fdspec.kernels.friction import friction_work, reaction
 from fdspec.kernels.storey.energy import stored_energy
-from fdspec.kernels.storey.rest import settle_at_rest
+from fdspec.kernels.storey.rest import rest_displacement
 from fdspec.kernels.storey.step import begin, come_to_rest, resume, walk
 from fdspec.kernels.types import (
     ANCHOR,
@@ -61,6 +62,7 @@ RESULTS = (
     "peak_column_shear",
 )
 """What a history leaves behind, in the order of its result row."""
+RESULT = positions(RESULTS)
 
 BEYOND = 1e-6
 """Share of a step by which the last output may lie past the last step's end, by rounding of times."""
@@ -86,36 +88,44 @@ def finish(storey, s, certify, result):
         travel += s[PHASE] * (motion.u - motion.d - s[ANCHOR])
     friction = s[RELEASE]
     if travel > 0.0:
-        friction += storey.kinetic_slip_force * travel
+        friction += friction_work(storey.kinetic_slip_force, travel)
     error = 0.0
     if certify:
         missing = s[INPUT] + s[STORED] - stored_energy(storey, motion) - s[VISCOUS] - friction
         scale = energy_in_play(storey, s, friction)
         error = abs(missing) / scale if scale > 0.0 else 0.0
-    result[0] = s[PEAK_ACCELERATION]
-    result[1] = s[PEAK_DISPLACEMENT]
-    result[2] = s[PEAK_VELOCITY]
-    result[3] = s[PEAK_SHEAR]
-    result[4] = motion.u
-    result[5] = travel
-    result[6] = s[TRANSITIONS]
-    result[7] = friction
-    result[8] = s[INPUT]
-    result[9] = error
-    result[10] = s[STATUS]
+    result[RESULT.peak_acceleration] = s[PEAK_ACCELERATION]
+    result[RESULT.peak_displacement] = s[PEAK_DISPLACEMENT]
+    result[RESULT.peak_velocity] = s[PEAK_VELOCITY]
+    result[RESULT.peak_base_shear] = s[PEAK_SHEAR]
+    result[RESULT.residual_displacement] = motion.u
+    result[RESULT.slip_travel] = travel
+    result[RESULT.transitions] = s[TRANSITIONS]
+    result[RESULT.dissipated_energy] = friction
+    result[RESULT.input_energy] = s[INPUT]
+    result[RESULT.energy_error] = error
+    result[RESULT.status] = s[STATUS]
     slip = s[OFFSET] if s[PHASE] == STICK else motion.u - motion.d
-    result[11] = max(s[PEAK_SLIP], abs(slip))
-    result[12] = slip
-    result[13] = s[PEAK_BRACE]
-    result[14] = storey.floor_stiffness * s[PEAK_DISPLACEMENT]
+    result[RESULT.peak_slip] = max(s[PEAK_SLIP], abs(slip))
+    result[RESULT.residual_slip] = slip
+    result[RESULT.peak_brace_force] = s[PEAK_BRACE]
+    result[RESULT.peak_column_shear] = storey.floor_stiffness * s[PEAK_DISPLACEMENT]
     size = 0.0
-    for k in range(10):
+    for k in range(RESULT.status):
         size += abs(result[k])
     if s[STATUS] == OK:
         if not size < math.inf:
-            result[10] = NON_FINITE_STATE
+            result[RESULT.status] = NON_FINITE_STATE
         elif error > ENERGY_TOLERANCE:
-            result[10] = ENERGY_NOT_CLOSED
+            result[RESULT.status] = ENERGY_NOT_CLOSED
+
+
+@inner
+def settle_at_rest(storey, s, result):
+    """Put the position of rest in the place of that at the end."""
+    slip = 0.0 if storey.slip_force == 0.0 else s[OFFSET]
+    result[RESULT.residual_displacement] = rest_displacement(storey, slip)
+    result[RESULT.residual_slip] = slip
 
 
 @inner

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from fdspec.compiler.options import inlined, inner
+from fdspec.compiler.positions import positions
+from fdspec.kernels.friction import friction_work, sliding_force
 from fdspec.kernels.mathematics.polynomial_roots import value_slope
 from fdspec.kernels.storey.energy import series_work
 from fdspec.kernels.storey.stick import held_force
@@ -22,6 +24,7 @@ TRACES = (
     "friction_energy",
 )
 """What is written at each output instant, in the order of the columns."""
+TRACE = positions(TRACES)
 
 
 @inlined
@@ -31,7 +34,7 @@ def floor_acceleration(plan, phase, offset, motion):
         b = plan.stick
         return plan.lift * offset - b.g * motion.v - b.w2 * motion.u
     b = plan.floor
-    push = phase * plan.storey.kinetic_slip_force / plan.storey.floor_mass
+    push = sliding_force(phase, plan.storey.kinetic_slip_force) / plan.storey.floor_mass
     return -push - b.g * motion.v - b.w2 * motion.u
 
 
@@ -49,16 +52,17 @@ def write_trace(plan, floor, brace, n, phase, offset, anchor, travel, so_far, ac
     else:
         d, rise = value_slope(brace, 0, n, x)
         e = rise / h
-        friction = phase * storey.kinetic_slip_force
+        friction = sliding_force(phase, storey.kinetic_slip_force)
         travel += phase * (u - d - anchor)
-    row[0] = u
-    row[1] = v
-    row[2] = floor_acceleration(plan, phase, offset, Motion(u, v, d, e))
-    row[3] = d
-    row[4] = e
-    row[5] = friction
-    row[6] = phase
-    row[7] = travel
-    row[8] = so_far.input + done
-    row[9] = so_far.viscous + lost
-    row[10] = so_far.release + (storey.kinetic_slip_force * travel if travel > 0.0 else 0.0)
+    row[TRACE.displacement] = u
+    row[TRACE.velocity] = v
+    row[TRACE.acceleration] = floor_acceleration(plan, phase, offset, Motion(u, v, d, e))
+    row[TRACE.brace_displacement] = d
+    row[TRACE.brace_velocity] = e
+    row[TRACE.friction_force] = friction
+    row[TRACE.phase] = phase
+    row[TRACE.slip_travel] = travel
+    row[TRACE.input_energy] = so_far.input + done
+    row[TRACE.viscous_energy] = so_far.viscous + lost
+    work = friction_work(storey.kinetic_slip_force, travel) if travel > 0.0 else 0.0
+    row[TRACE.friction_energy] = so_far.release + work

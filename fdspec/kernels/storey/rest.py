@@ -42,11 +42,3 @@ def is_at_rest(plan, s):
     tilt = plan.hold_v * omega
     swing = amplitude * math.sqrt(plan.hold_u * plan.hold_u + tilt * tilt)
     return abs(plan.hold_u * rest - plan.hold_offset * s[OFFSET]) + swing < storey.slip_force
-
-
-@inner
-def settle_at_rest(storey, s, result):
-    """Put the position of rest in the place of that at the end: see RESULTS."""
-    slip = 0.0 if storey.slip_force == 0.0 else s[OFFSET]
-    result[4] = rest_displacement(storey, slip)
-    result[12] = slip

@@ -6,6 +6,7 @@ Study, equations (5) to (7).
 from __future__ import annotations
 
 from fdspec.compiler.options import fma, inlined, inner
+from fdspec.kernels.friction import sliding_force
 from fdspec.kernels.mathematics.extremum import Weights, top_inside
 from fdspec.kernels.mathematics.oscillator import ahead, dot4, undamped_ahead
 from fdspec.kernels.mathematics.polynomial_roots import first_root, largest_magnitude
@@ -246,6 +247,6 @@ def slip_peaks(plan, floor, brace, search, n, share, start, end, force, phase, h
             search[j] = k * floor[j] + kd * brace[j] + (j + 1) * (c * floor[j + 1] + cd * brace[j + 1]) * pace
         search[n] = 0.0
         shear = largest_magnitude(search, n, shear)
-    base = -phase * storey.kinetic_slip_force / storey.floor_mass
+    base = sliding_force(-phase, storey.kinetic_slip_force) / storey.floor_mass
     moved = floor_peaks(f, base, 0.0, floor, search, n, share, start, end, force, h, peaks)
     return Peaks(moved.acceleration, moved.displacement, moved.velocity, shear)

@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 
 from fdspec.compiler.options import inlined, inner
-from fdspec.kernels.friction import GOES_ON, phase_after_stop, reaction, sliding_kick
+from fdspec.kernels.friction import GOES_ON, phase_after_stop, reaction, sliding_force, sliding_kick
 from fdspec.kernels.mathematics.oscillator import expand
 from fdspec.kernels.mathematics.polynomial_roots import value_slope
 from fdspec.kernels.mathematics.zero_crossing import CROSSES, UNCLEAR
@@ -100,7 +100,8 @@ def begin_slip(storey, sign, motion, held):
     if storey.brace_damping > 0.0:
         lag = (abs(held) - storey.kinetic_slip_force) / storey.brace_damping
         return Motion(motion.u, motion.v, motion.d, motion.v - sign * lag), NO_KICK
-    return Motion(motion.u, motion.v, sign * storey.kinetic_slip_force / storey.brace_stiffness, 0.0), NO_KICK
+    stretch = sliding_force(sign, storey.kinetic_slip_force) / storey.brace_stiffness
+    return Motion(motion.u, motion.v, stretch, 0.0), NO_KICK
 
 
 @inner
@@ -349,7 +350,7 @@ def walk(
             slipped = sign * (motion.u - motion.d - s[ANCHOR])
             held = reaction(storey, motion.u, motion.v, motion.d)
             if storey.brace_mass == 0.0:
-                held = sign * storey.kinetic_slip_force
+                held = sliding_force(sign, storey.kinetic_slip_force)
             after = phase_after_stop(sign, held, limit)
             if free and after == STICK:
                 after = -sign

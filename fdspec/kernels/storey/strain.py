@@ -15,6 +15,7 @@ import numpy as np
 from numba import types
 
 from fdspec.compiler.options import entry, float1d, float2d, ground1d, inner, int1d
+from fdspec.compiler.positions import positions
 from fdspec.kernels.mathematics.oscillator import TERMS, advance, area, expand, square_integral
 from fdspec.kernels.mathematics.polynomial_roots import largest_magnitude, value_slope
 from fdspec.kernels.mathematics.quadrature import series_area, square_form
@@ -41,6 +42,7 @@ from fdspec.kernels.types import (
 
 STRAIN_RESULTS: Final = ("strain_energy_area", "peak_strain_energy", "status")
 """What a history leaves behind, in the order of its result row: J s, J, a status code."""
+STRAIN = positions(STRAIN_RESULTS)
 
 ORDER: Final = TERMS - 2
 """Order of the series of U: its phase is twice that of the motion, 2 rad at most."""
@@ -285,9 +287,9 @@ def strain_of_history(
                 break
         if s[STATUS] != OK:
             break
-    result[0] = total
-    result[1] = most
-    result[2] = s[STATUS]
+    result[STRAIN.strain_energy_area] = total
+    result[STRAIN.peak_strain_energy] = most
+    result[STRAIN.status] = s[STATUS]
     return busiest
 
 

@@ -29,6 +29,12 @@ SAID = {
     ),
     "CSMIP V1": (["90 Deg", "Up"], 0.01, "Sat Jan 02, 1999 12:00:00.0 UTC", "Old Mill", "90 Deg", ""),
     "CSMIP V1 in pairs": (["NS"], 0.01, "01/02/1999 12:00:00", "OLD MILL", "NS", ""),
+    "CSMIP V1 of CDMG": (["90 DEG", "UP"], 0.01, "", "OLD MILL", "90 DEG", ""),
+    "USGS blocks": (
+        ["90"], 0.01, "EARTHQUAKE OF JANUARY 2, 1999 1200 GMT", "OLD MILL, 1 MILL ROAD, GROUND", "90",
+        "filtered by the agency: BUTTERWORTH AT .25 HZ",
+    ),
+    "AFAD": (["HNE"], 0.01, "NOWHERE 19990102", "MILL", "HNE", "by the agency: "),
     "USGS SMC": (["90"], 0.01, "1999 01 02 1200 Nowhere", "Old Mill", "90", ""),
     "ESM or ITACA ASCII": (["HNE"], 0.01, "NOWHERE 19990102", "MILL", "HNE", "by the agency: "),
     "K-NET or KiK-net": (
@@ -88,6 +94,9 @@ COUNTS = {
     "CSMIP V2 of 1983": "   23 POINTS OF ACCEL",
     "CSMIP V1": "    23 Accelerogram points",
     "CSMIP V1 in pairs": "NO. OF POINTS =     23",
+    "CSMIP V1 of CDMG": "   23 POINTS OF ACCEL",
+    "USGS blocks": "NO OF POINTS=    23",
+    "AFAD": "NDATA: 23",
     "USGS SMC": "    -32768         1\n        23    -32768",
     "ESM or ITACA ASCII": "NDATA: 23",
     "K-NET or KiK-net": "Duration Time(s)  2",
@@ -297,6 +306,146 @@ def test_miniseed_without_obspy_says_what_to_install(record_file, monkeypatch):
     monkeypatch.setattr("fdspec.records.miniseed.import_module", absent)
     with pytest.raises(RecordError, match=r"miniSEED needs obspy: pip install 'fdspec\[miniseed\]'"):
         read_record(record_file(b"000001D " + bytes(504), "a.mseed"), units="gal")
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("order", ["<", ">"])
+def test_sac_of_our_own(record_file, order):
+    pytest.importorskip("obspy", reason="obspy is in the extra miniseed")
+    path = record_file(samples.sac(order), "own.sac")
+    motion = read_record(path, units="cm/s2")
+    single = np.array(samples.VALUES, dtype=np.float32).astype(float)
+    assert motion.acceleration.tolist() == (single / 100.0).tolist()
+    assert (motion.dt, motion.station, motion.component) == (0.01, "MILL", "HNE")
+    with pytest.raises(RecordError, match=r"own\.sac: SAC does not say the unit .*: give units"):
+        read_record(path)
+    with pytest.raises(
+        RecordError, match="expected 23 samples, as the header says, but the file ends before"
+    ):
+        read_record(record_file(samples.sac(order)[:-3], "cut.sac"), units="gal")
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize(("code", "quantity"), [(6, "displacement"), (7, "velocity")])
+def test_sac_of_another_quantity_is_refused(record_file, code, quantity):
+    pytest.importorskip("obspy", reason="obspy is in the extra miniseed")
+    with pytest.raises(RecordError, match=f"SAC says that this is {quantity}"):
+        read_record(record_file(samples.sac(idep=code), "v.sac"), units="gal")
+
+
+def test_a_binary_format_is_a_module_and_an_entry(record_file, monkeypatch):
+    """Nothing else knows of miniSEED or SAC; a third one needs no more."""
+    from fdspec.records import reading
+    from fdspec.records.channel import Channel
+    from fdspec.records.formats import BINARY_FORMATS, BinaryFormat
+
+    def read(content, name, given):
+        return (Channel("Z", np.frombuffer(content[4:], "<f8"), 0.02, "m/s2"),)
+
+    known = BinaryFormat("new", lambda content: content.startswith(b"NEW\0"), read)
+    monkeypatch.setattr(reading, "BINARY_FORMATS", (*BINARY_FORMATS, known))
+    motion = read_record(record_file(b"NEW\0" + np.array([0.0, 1.0, -3.0]).tobytes(), "a.new"))
+    assert (motion.pga, motion.dt, motion.source) == (3.0, 0.02, "a.new (new)")
+
+
+def asa(rows=23, length="0.23", peak=None):
+    """Return the ASA sample with the keys of a network that counts the steps, and perhaps a row more."""
+    text, values = SAMPLES["UNAM ASA"]
+    lines = text.splitlines()
+    last = lines[-1]
+    lines += [last] * (rows - 23)
+    place = max(range(23), key=lambda k: abs(values[k]))
+    top = -values[place] * 100.0 if peak is None else peak
+    at = next(k for k, line in enumerate(lines) if line.startswith("NUM. TOTAL"))
+    lines[at + 1 : at + 1] = [
+        f"DURACION DEL REGISTRO (s), C1-C6       : /{length}/{length}/{length}",
+        f"ACEL. MAX.(Gal), C1-C6                 : /{-top:.4f}/{top:.4f}/{0.5 * top:.4f}".replace("--", ""),
+        f"ACEL. MAX., C1-C6, EN LA MUESTRA       : /{place + 1}/{place + 1}/{place + 1}",
+    ]
+    return "\n".join(lines)
+
+
+def test_a_network_that_counts_steps_has_a_sample_more(record_file):
+    motion = read_record(record_file(asa(24), "one_more.101"), channel="N00E")
+    assert len(motion) == 24
+    assert motion.history == ("on reading, 24 samples were found where the header counts 23: all were taken",)
+
+
+@pytest.mark.parametrize(
+    "text", [asa(25), asa(24, length="0.24"), asa(24, peak=12.3), asa(22 + 2).replace("EN LA", "A LA")]
+)
+def test_a_row_more_is_refused_when_the_header_does_not_explain_it(record_file, text):
+    with pytest.raises(RecordError, match="expected 23 rows, as NUM. TOTAL DE MUESTRAS says"):
+        read_channels(record_file(text, "more.101"))
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("C1-C6 (s)       :", "C1-C6, (s)      :"),
+        ("3F10.4", "3E10.4"),
+        ("ARCHIVO ESTANDAR DE ACELERACION", "Archivo Est\u00e1ndar de Aceleraci\u00f3n"),
+        ("         V      N00E      N90E", "       V;+     N00E;     N90E;"),
+    ],
+)
+def test_asa_as_other_networks_spell_it(record_file, old, new):
+    text, values = SAMPLES["UNAM ASA"]
+    assert old in text
+    motion = read_record(record_file(text.replace(old, new), "other.dat"), channel="V")
+    np.testing.assert_allclose(motion.acceleration, values, rtol=2e-16)
+
+
+def test_csmip_s_sentence_is_believed_before_a_slot_that_film_leaves_empty(record_file):
+    text, values = SAMPLES["CSMIP V2"]
+    film = text.replace("  0.010000  0.230000", "  0.000000  0.230000")
+    assert film != text
+    with pytest.raises(RecordError, match="expected the step of real-header value 53"):
+        read_record(record_file(film))
+    lines = film.splitlines()
+    lines[16] = "At equally-spaced intervals of    .010  sec."
+    motion = read_record(record_file("\n".join(lines)))
+    assert motion.dt == 0.01
+    np.testing.assert_allclose(motion.acceleration, values, rtol=2e-16)
+
+
+def test_film_at_unequal_steps_is_refused_or_interpolated(record_file):
+    text = SAMPLES["CSMIP V1 in pairs"][0].replace("  0.020  0", "  0.027  0")
+    path = record_file(text, "film.raw")
+    with pytest.raises(
+        RecordError, match="expected equal time steps .* to interpolate between them, resample_to"
+    ):
+        read_record(path)
+    plain = read_record(record_file(SAMPLES["CSMIP V1 in pairs"][0], "even.raw"))
+    motion = read_record(path, resample_to=0.01)
+    assert (motion.n, motion.dt) == (plain.n, 0.01)
+    a = plain.acceleration
+    assert motion.acceleration[2] == pytest.approx(a[1] + (a[2] - a[1]) * 10.0 / 17.0)
+    assert motion.acceleration[3:].tolist() == pytest.approx(a[3:].tolist())
+    assert "interpolated from unequal steps" in motion.history[-1]
+    with pytest.raises(RecordError, match="resample_to is for unequal steps, and these are equal, 0.01 s"):
+        read_record(record_file(SAMPLES["CSMIP V1 in pairs"][0]), resample_to=0.005)
+    with pytest.raises(RecordError, match="resample_to must leave 2 to 50000000 samples"):
+        read_record(path, resample_to=1e-12)
+
+
+def test_smc_without_a_title_says_what_it_is_in_a_comment(record_file):
+    text, values = SAMPLES["USGS SMC"]
+    unknown = text.replace("2 CORRECTED ACCELEROGRAM", "0 UNKNOWN")
+    with pytest.raises(
+        RecordError, match="the title says UNKNOWN, and no comment that this is an acceleration"
+    ):
+        read_record(record_file(unknown))
+    told = unknown.replace("| made up", "|ACCELERATION TIME HISTORY IN UNITS OF G")
+    np.testing.assert_allclose(read_record(record_file(told)).acceleration, values, rtol=2e-16)
+
+
+def test_names_have_no_runs_of_blanks(record_file):
+    text = SAMPLES["CSMIP V1"][0].replace(
+        "Chan  1:  90 Deg", "Chan  1:  90 Deg   (Sta Chn: 11)    Location: Roof:   South End        "
+    )
+    path = record_file(text)
+    assert list(read_channels(path)) == ["90 Deg, Roof: South End", "Up"]
+    assert read_record(path, channel="90  deg,  ROOF: South End").component == "90 Deg, Roof: South End"
 
 
 DAMAGED_HEADERS = [

@@ -45,7 +45,7 @@ def test_binary_is_refused(record_file):
 
 
 def test_line_numbers_count_what_an_editor_counts():
-    assert decode(b"a\fb\r\nc\rd\n\n\x1a", "f").lines == ("a\fb", "c", "d")
+    assert tuple(decode(b"a\fb\r\nc\rd\n\n\x1a", "f").lines) == ("a\fb", "c", "d")
 
 
 def test_text_that_is_not_utf8_is_latin_1():

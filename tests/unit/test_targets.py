@@ -1,0 +1,113 @@
+"""Limits on demands against brute force: every kilonewton, every level, every bound, one by one."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from fdspec.choice.targets import meet
+from fdspec.cli.main import main
+from fdspec.engines.batch import integrate_columns
+from fdspec.errors import InvalidInput
+from fdspec.kernels.storey.history import RESULTS
+from fdspec.model.building import Building
+from fdspec.model.motion import GroundMotion
+
+RESPONSES = {"acceleration": "peak_acceleration", "drift": "peak_displacement"}
+
+
+def record(seed: int, samples: int = 120) -> GroundMotion:
+    rng = np.random.default_rng(seed)
+    shake = np.convolve(rng.standard_normal(samples), np.ones(5) / 5.0, mode="same")
+    return GroundMotion(4.0 * shake / np.abs(shake).max(), 0.02, name=f"r{seed}")
+
+
+def shares(
+    building: Building, motions: list[GroundMotion], limits: dict[str, float], force: np.ndarray
+) -> np.ndarray:
+    """Largest demand over its limit at each slip force, by the sweep's own engine and nothing else."""
+    worst = np.zeros(force.size)
+    frame = np.array([building.storey[:6]])
+    for level in (1.0, 1.5):
+        for bound in (0.8, 1.0, 1.2):
+            found = [
+                integrate_columns(frame, bound * force, bound * force, motion.scaled(level), certify=False)[
+                    1
+                ][0]
+                for motion in motions
+            ]
+            for name, limit in limits.items():
+                mean = np.mean([part[:, RESULTS.index(RESPONSES[name])] for part in found], axis=0)
+                worst = np.maximum(worst, mean / limit)
+    return worst
+
+
+def check_against_brute_force(seed: int) -> bool:
+    rng = np.random.default_rng(seed)
+    building = Building.single_storey(rng.uniform(0.2, 1.0), rng.uniform(2.0, 8.0), 1.0)
+    motions = [record(3 * seed + k) for k in range(3)]
+    force = 1e3 * np.arange(0.0, 160.0)
+    limits = {"acceleration": rng.uniform(3.0, 9.0), "drift": rng.uniform(0.005, 0.08)}
+    target = meet(building, motions, limits, levels=[1.0, 1.5])
+    known = shares(building, motions, limits, force)
+    inside = np.zeros(force.size, dtype=bool)
+    for start, end in target.bands:
+        inside |= (force >= start) & (force <= end)
+        edges = np.array([start] if np.isinf(end) else [start, end])
+        assert shares(building, motions, limits, edges).max() <= 1.0 + 1e-12
+    good = known <= 1.0
+    # Where they differ, a stretch is narrower than a step of the scan, or an end within a few newtons.
+    assert np.abs(known[good != inside] - 1.0).max(initial=0.0) < 0.02
+    if target.met:
+        first = force[good][0] if good.any() else np.inf
+        assert target.slip_force[0] <= first + 1.0 or abs(known[force == first][0] - 1.0) < 0.02
+        assert target.worst.value <= target.worst.limit * (1.0 + 1e-12)
+    else:
+        assert target.worst.value > target.worst.limit
+        assert target.worst.value / target.worst.limit <= known.min() * 1.02
+    return target.met
+
+
+def test_five_random_frames() -> None:
+    assert {check_against_brute_force(seed) for seed in range(5)} == {True, False}
+
+
+@pytest.mark.slow
+def test_a_hundred_random_frames() -> None:
+    assert {check_against_brute_force(seed) for seed in range(5, 105)} == {True, False}
+
+
+def test_from_the_command_line(capsys: pytest.CaptureFixture[str]) -> None:
+    given = ["choose", "--record", "FSR1", "--period", "0.5", "--storey-height", "3"]
+    assert main([*given, "--limit", "drift_ratio=0.02", "--limit", "acceleration=3g", "--level", "DE"]) == 0
+    assert "All limits are met at slip forces of" in capsys.readouterr().out
+    assert main([*given, "--limit", "drift=0.001mm"]) == 1
+    out = capsys.readouterr().out
+    assert "No slip force meets all limits: drift at level 1 is over its limit by" in out
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"limits": {}}, "at least one of"),
+        ({"limits": {"slip": 0.1}}, "limit 'slip' is none of"),
+        ({"limits": {"drift": -1.0}}, "limit drift must be positive"),
+        ({"levels": [0.0]}, "levels must be positive"),
+        ({"lower": 1.1}, "lower and upper"),
+        ({"distribution": "free"}, "distribution must be uniform or shear"),
+        ({"limits": {"drift_ratio": 0.01}}, "needs storey_height"),
+    ],
+)
+def test_what_cannot_be_asked(change: dict[str, object], message: str) -> None:
+    arguments: dict[str, object] = {"limits": {"drift": 0.01}, **change}
+    with pytest.raises(InvalidInput, match=message):
+        meet(Building.single_storey(0.5, 4.0, 1.0), record(1), **arguments)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    "options",
+    [["--limit", "drift"], ["--limit", "drift=x"], ["--level", "1"], ["--limit", "drift=1", "--level", "no"]],
+)
+def test_wrong_usage(options: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["choose", *options]) == 2
+    assert "--l" in capsys.readouterr().err
