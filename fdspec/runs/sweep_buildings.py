@@ -58,9 +58,9 @@ RESPONSES: Final = tuple(
 )
 OUTPUTS: Final = (*(name for name in RESPONSES if not BUILDING_CUBE[name].on_request), *LIMITS)
 ON_REQUEST: Final = tuple(name for name in RESPONSES if BUILDING_CUBE[name].on_request)
-"""Outputs that are computed only where they are named, save for buildings with devices.
+"""Outputs that are computed only where they are named, or where each history is integrated by itself.
 
-Histories that run side by side leave them out: with them each is integrated by itself.
+Histories that run side by side leave them out.
 """
 
 
@@ -112,9 +112,10 @@ def sweep_buildings(
         Go on from there until the energy left can make no damper slip, and give ``residual_displacement``,
         ``residual_drift`` and ``residual_slip`` where the building comes to rest; twice the work.
     outputs : iterable of str, optional
-        Variables of the cube; unless given, all but those of `ON_REQUEST`, which all cells of a grid with
-        devices have in any case.  With one of these, with free_vibration or at_rest, each history is
-        integrated by itself, which takes longer and gives the other results but for rounding.
+        Variables of the cube; unless given, all but those of `ON_REQUEST`: ``peak_slip``,
+        ``peak_brace_force``, ``peak_column_shear``.  Histories that run side by side have no room for them.
+        With one of them, with free_vibration, at_rest or devices, each history is integrated by itself, which
+        takes longer and moves the other results by rounding; unless outputs are given, they are there then.
     certify : bool
         Whether to compute ``energy_error``; without it the sweep is faster.
     workers : int, optional
@@ -173,7 +174,8 @@ def sweep_buildings(
         raise InvalidInput("at_rest is for dampers alone, not for buildings with devices")
     motions = named(motions)
     require_per_task(cells_per_task, "cells_per_task")
-    wanted = chosen(usual_outputs(grid) if outputs is None else outputs, known_outputs(grid), certify)
+    usual = usual_outputs(grid, after)
+    wanted = chosen(usual if outputs is None else outputs, known_outputs(grid), certify)
     each = _ends(grid)[-1 if set(LIMITS) & set(wanted) else 0]
     histories = grid.intensities.size * each
     refuse_endless(motions, grid, wanted, store)
@@ -229,9 +231,10 @@ def sweep_buildings(
     return cube_of(_variables(grid, _rows(grid), len(motions), tasks, parts, wanted))
 
 
-def usual_outputs(grid: BuildingGrid) -> tuple[str, ...]:
+def usual_outputs(grid: BuildingGrid, after: After = NOTHING) -> tuple[str, ...]:
     """Return what a sweep of these buildings computes unless it is told otherwise."""
-    return known_outputs(grid) if _with_devices(grid) else (*OUTPUTS, *_demands(grid))
+    by_itself = after != NOTHING or _with_devices(grid)
+    return known_outputs(grid) if by_itself else (*OUTPUTS, *_demands(grid))
 
 
 def known_outputs(grid: BuildingGrid) -> tuple[str, ...]:
