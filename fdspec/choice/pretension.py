@@ -71,9 +71,11 @@ def best_pretension(
 ) -> xr.Dataset:
     """Find the pretension that lowers a performance index most, by computing histories where it may be.
 
-    All pretensions from 0 to that at which the damper no longer slips are scanned, many at once, and every
-    interval that may hide a lower value is divided until it is 1/4096 of the range or promises less than
-    1e-5 of the index.  Nothing is interpolated: every number returned is that of a history.
+    All pretensions from 0 to that at which the damper no longer slips are scanned, many at once.  Intervals
+    that seem to hide a lower value, by the slopes beside them, are divided until they are 1/4096 of the
+    range or promise less than 1e-5 of the index.  A dip narrower than the scan can be missed; that happens
+    in a few frames of a hundred where kinetic friction lies below static.  Nothing is interpolated: every
+    number returned is that of a history.
 
     Parameters
     ----------
@@ -164,7 +166,8 @@ def best_pretension(
         variables |= {name: _of_all(together.reshape(shape[1:]), name) for name in THERE}
         least = np.array([found.scan.least for found in own.ravel()]).reshape(shape)
         indices = _of_all(together.reshape(shape[1:]), "index")
-        variables |= {"index_of_record": indices, "regret": indices / least - 1.0}
+        # A search may miss a record's own least by a little; what was found together then shows it.
+        variables |= {"index_of_record": indices, "regret": indices / np.minimum(least, indices) - 1.0}
     variables["bare_acceleration"] = variables["bare_acceleration"][:, 0]
     axes = {
         "stiffness_ratio": grid.stiffness_ratio,

@@ -149,7 +149,8 @@ def choose(
     bands = found.bands(band)
     ends = _per_storey(bands[(bands[:, 0] <= found.best) & (found.best <= bands[:, 1])][0], shape)
     per_pretension = friction_coefficient * normal_force_factor
-    least = of_record.min(axis=0)
+    own = indices[CASES.index("chosen")]
+    least = np.minimum(of_record.min(axis=0), own)  # the choice may be better than every trial
     variables = {
         "slip_force": force,
         "pretension": force / per_pretension,
@@ -164,7 +165,7 @@ def choose(
         "trial_index_of_record": of_record,
         "index": bench.together(indices),
         "index_of_record": indices,
-        "regret": indices[CASES.index("chosen")] / least - 1.0,
+        "regret": own / least - 1.0,
         **responses,
     }
     return assemble(

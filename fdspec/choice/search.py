@@ -2,8 +2,8 @@
 
 The response of a damped frame over its slip force has kinks, where another peak of the history becomes the
 largest, and several local minima; it is the same for all forces at which the damper never slips. So it is
-scanned, every interval that may hide the least value is divided again, and so are those in which it leaves
-the band about the least.
+scanned, intervals that by the slopes beside them may hold the least value are divided again, and so are
+those in which it leaves the band about the least. A dip narrower than the scan can be missed.
 """
 
 from __future__ import annotations

@@ -40,6 +40,7 @@ class BoucWen(Method):
     ----------
     exponent : float
         n, the sharpness of the yielding, at least 1; the elasto-plastic spring is the limit of large ones.
+        Beyond about 100 the integrator may fail, with the status ``non_finite_state``.
     beta : float
         Share of the term that makes loops, above 0 and at most 1; 0.5 unloads with the first stiffness.
     rtol : float

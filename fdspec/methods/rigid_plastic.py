@@ -37,6 +37,8 @@ class RigidPlastic(Method):
     -----
     It is the limit of the exact engine as the braces' stiffness grows.  A damper that never slips holds its
     storey rigid.  Of initial values those of the floors are used.  Dashpots of braces have no part in it.
+    The forces of several storeys at once are found by iteration; with kinetic friction below static there
+    may be no answer that a step can hold, and the status is ``iteration_not_converged``.
     """
 
     name: ClassVar[str] = "rigid-plastic"
