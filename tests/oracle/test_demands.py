@@ -142,7 +142,7 @@ def test_brace_that_rings_in_slip() -> None:
     """
     m_f, m_d, k_d, static, kinetic = 1e12, 50.0, 5e6, 10e3, 6e3
     building = fdspec.Building(m_f, 1.0, m_d, k_d, static, kinetic, damping=fdspec.DampingMatrix([[0.0]]))
-    motion = fdspec.GroundMotion(np.zeros(201), 1e-5, name="rest")
+    motion = fdspec.GroundMotion(np.zeros(2001), 1e-5, name="rest")  # two half swings
     d = 1.5 * static / k_d
     history = fdspec.simulate(
         building, motion, initial_displacement=[[0.0], [d]], initial_velocity=[[0.0], [0.0]]
