@@ -246,5 +246,5 @@ def test_names_of_chunks_are_zarrs(motions: Motions, store: Path) -> None:
         for number, variable in itertools.product(range(len(blocks)), variables)
         if blocks.owns(number, variable)
     }
-    assert len(variables) == 13
+    assert len(variables) == 17
     assert mine == {path for v in variables for path in (store / v.name / "c").rglob("*") if path.is_file()}
