@@ -197,7 +197,7 @@ def faults(seeds: range) -> list[str]:
             told.append(f"halving moves a peak by {apart(one, other):.1e}")
         work = estimated_steps(building, motion, free * motion.dt) + 50 * one.transition_time.size
         # Both runs of an engine's, and a step of many storeys under a busy machine.
-        if not spent < 0.5 + 2.0 * work * building.n_storeys * 10e-6:
+        if not spent < 5.0 + 20.0 * work * building.n_storeys * 10e-6:
             told.append(f"{spent:.2f} s for about {work:.0f} steps")
         found += [f"seed {seed}, {building.n_storeys} storeys: {what}" for what in told]
     return found
@@ -205,8 +205,8 @@ def faults(seeds: range) -> list[str]:
 
 def test_a_balance_that_does_not_close_is_a_status() -> None:
     """A step far beyond what its series can bear stands for a rule that went wrong."""
-    building = Building([2e4] * 3, 8e6, 0.0, 16e6, 40e3, damping=ModalDamping(0.02))
-    wrong = run(building, GroundMotion([0.0, 3.0, -2.0, 0.0], 2.0), radians=1000.0)
+    building = Building([2e4] * 3, 8e6, 0.0, 16e6, np.inf, damping=ModalDamping(0.02))
+    wrong = run(building, GroundMotion([0.0, 3.0, -2.0, 0.0], 1.0), radians=20.0)
     assert np.isfinite(wrong.peak_displacement).all()
     assert wrong.energy_error > ENERGY_TOLERANCE
     assert wrong.status == ENERGY_NOT_CLOSED
