@@ -144,18 +144,47 @@ def response_variables(grid: tuple[str, ...], storey: tuple[str, ...] = ()) -> t
             "energy_error", grid, "1", "error of the energy balance relative to the energy in play", degree=0
         ),
         Variable("status", grid, "", "how the integration ended", "int8", _flags(STATUSES), degree=0),
+        *demand_variables(each, on_request=bool(storey)),
     )
 
 
-def demand_variables(each: tuple[str, ...]) -> tuple[Variable, ...]:
+def demand_variables(each: tuple[str, ...], *, on_request: bool = False) -> tuple[Variable, ...]:
+    """Return what a designer reads off of each storey, beside the floor's peaks.
+
+    on_request: whether a sweep computes the peaks only where they are named.
+    """
+    return (
+        Variable(
+            "peak_slip",
+            each,
+            "m",
+            "largest slip of the damper from where it was fastened",
+            on_request=on_request,
+            degree=1,
+        ),
+        Variable("residual_slip", each, "m", "final slip offset of the damper", degree=1),
+        Variable(
+            "peak_brace_force",
+            each,
+            "N",
+            "peak force in the spring and dashpot of the brace",
+            on_request=on_request,
+            degree=1,
+        ),
+        Variable(
+            "peak_column_shear",
+            each,
+            "N",
+            "peak shear force of the columns, without P-delta",
+            on_request=on_request,
+            degree=1,
+        ),
+    )
+
+
+def device_variables(each: tuple[str, ...]) -> tuple[Variable, ...]:
     """Return what only buildings with devices have of each storey."""
     return (
-        Variable("peak_slip", each, "m", "largest slip of the damper from where it was fastened", degree=1),
-        Variable("residual_slip", each, "m", "final slip offset of the damper", degree=1),
-        Variable("peak_brace_force", each, "N", "peak force in the brace", degree=1),
-        Variable(
-            "peak_column_shear", each, "N", "peak shear force of the columns, without P-delta", degree=1
-        ),
         Variable("peak_column_deformation", each, "m", "peak drift of the columns that can yield", degree=1),
         Variable("plastic_drift", each, "m", "final plastic drift of the columns", degree=1),
         Variable("ductility", each, "1", "peak drift over yield drift of the columns", degree=0),
@@ -214,7 +243,7 @@ CUBE: Final[Registry] = registry_of(
         Variable("kinetic_slip_force", ("pretension",), "N", "friction force of the damper while it slips"),
     ),
     response_variables(STUDY_DIMS),
-    demand_variables(STUDY_DIMS),
+    device_variables(STUDY_DIMS),
     (
         Variable(
             "elastic_acceleration",
@@ -327,7 +356,7 @@ BUILDING_CUBE: Final[Registry] = registry_of(
             degree=1,
         ),
     ),
-    demand_variables(_EACH_STOREY),
+    device_variables(_EACH_STOREY),
 )
 """The variables of a sweep over buildings, dims (record, building, stiffness_scale, slip_scale, storey)."""
 
@@ -374,6 +403,9 @@ HISTORY: Final[Registry] = registry_of(
         Variable("brace_displacement", _EACH, "m", "displacement of the brace relative to the ground"),
         Variable("brace_velocity", _EACH, "m/s", "velocity of the brace relative to the ground"),
         Variable("friction_force", _EACH, "N", "force of the damper, positive against forward slip"),
+        Variable("slip", _EACH, "m", "slip of the damper from where it was fastened, positive forward"),
+        Variable("brace_force", _EACH, "N", "force in the spring and dashpot of the brace"),
+        Variable("column_shear", _EACH, "N", "shear force of the columns, without P-delta"),
         Variable("phase", _EACH, "", "phase of the damper", "int8", _flags(PHASES)),
         Variable("slip_travel", _EACH, "m", "distance slipped in the damper so far"),
         Variable("kinetic_energy", _OVER_TIME, "J", "kinetic energy relative to the ground"),
@@ -412,8 +444,8 @@ HISTORY: Final[Registry] = registry_of(
         Variable("status", (), "", "how the integration ended", "int8", _flags(STATUSES)),
     ),
     demand_variables(_STOREY),
+    device_variables(_STOREY),
     (
-        Variable("column_shear", _EACH, "N", "shear force of the columns, without P-delta"),
         Variable("plastic_deformation", _EACH, "m", "plastic drift of the columns so far"),
         Variable("bearing_energy", _OVER_TIME, "J", "elastic energy in the ends of all slots"),
         Variable("gravity_energy", _OVER_TIME, "J", "work done by gravity on the leaning frame"),

@@ -8,6 +8,7 @@ as many steps a sample.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -32,22 +33,29 @@ def integrate_columns(
     motion: GroundMotion,
     *,
     certify: bool,
+    free_steps: int = 0,
+    at_rest: bool = False,
     radians: float = RADIANS,
 ) -> tuple[FloatArray, FloatArray]:
     """Integrate frames (m, 6), braced and under each of the slip forces (p,).
 
     A frame's row: floor mass, damping, stiffness, brace mass, damping, stiffness, SI units.  certify:
-    whether the balance of all energies is wanted.  Returns results of the braced frames
+    whether the balance of all energies is wanted.
+    free_steps: steps of dt with the ground at rest that follow; at_rest: whether each goes on from there
+    until nothing can slip any more.  Returns results of the braced frames
     (m, len(RESULTS)) and of all slip forces (m, p, len(RESULTS)).
     """
+    run = partial(
+        _integrate, motion=motion, certify=certify, free_steps=free_steps, at_rest=at_rest, radians=radians
+    )
     never = np.full((frames.shape[0], 2), (np.inf, 0.0))
-    braced, held = _integrate(np.hstack([frames, never]), 0.0, motion, certify, radians)
+    braced, held = run(np.hstack([frames, never]), 0.0)
     results = np.repeat(braced[:, np.newaxis], slip_force.size, axis=1)
     column, force = np.nonzero(slip_force <= held[:, np.newaxis])
     slipping = np.column_stack([frames[column], slip_force[force], kinetic_slip_force[force]])
     # Neighbours should slip about as much: where none of them does, only stick is computed.
     likeness = slip_force[force] / np.maximum(held[column], np.finfo(float).tiny)
-    results[column, force], _ = _integrate(slipping, likeness, motion, certify, radians)
+    results[column, force], _ = run(slipping, likeness)
     return braced, results
 
 
@@ -56,6 +64,8 @@ def _integrate(
     likeness: FloatArray | float,
     motion: GroundMotion,
     certify: bool,
+    free_steps: int,
+    at_rest: bool,
     radians: float,
 ) -> tuple[FloatArray, FloatArray]:
     """Integrate storeys (m, 8) in lanes, alike ones together; return results and the reactions they reach."""
@@ -76,6 +86,8 @@ def _integrate(
             motion.dt,
             int(parts[lanes[0]]),
             certify,
+            free_steps,
+            at_rest,
             out,
             reached,
         )

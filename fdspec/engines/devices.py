@@ -21,9 +21,9 @@ from fdspec.kernels.devices.peaks import (
 from fdspec.model.building import Building
 from fdspec.model.device_frame import DeviceFrame
 from fdspec.model.motion import GroundMotion
-from fdspec.variables import demand_variables
+from fdspec.variables import device_variables
 
-DEMANDS = tuple(variable.name for variable in demand_variables(()))
+DEMANDS = tuple(variable.name for variable in device_variables(()))
 """What only the results of buildings with devices have of each storey."""
 
 
@@ -235,6 +235,7 @@ def _course(building: Building, frame: DeviceFrame, traces: Traces, outcome: Out
     elastic = np.where(columns >= 0, building.hardening_ratio, 1.0) * frame_stiffness(building)
     storey = int(totals["collapse_storey"])
     devices = DeviceCourse(
+        brace_force=_of_storeys(link["force"], dampers),
         column_shear=elastic * drift + _of_storeys(link["force"], columns),
         plastic_deformation=_of_storeys(link["offset"], columns),
         kinetic_energy=energy["kinetic_energy"],
@@ -281,6 +282,10 @@ def _course(building: Building, frame: DeviceFrame, traces: Traces, outcome: Out
         peak_storey_shear=result["peak_storey_shear"],
         peak_base_shear=float(result["peak_storey_shear"][0]),
         residual_displacement=result["residual_displacement"],
+        peak_slip=result["peak_slip"],
+        residual_slip=result["residual_slip"],
+        peak_brace_force=result["peak_brace_force"],
+        peak_column_shear=result["peak_column_shear"],
         dissipated_energy=_friction(frame, outcome),
         energy_error=totals["energy_error"],
         status=int(totals["status"]),

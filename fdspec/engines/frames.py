@@ -16,7 +16,7 @@ from fdspec.kernels.frame.model import (
     GROUND_STIFFNESS,
     STOREY_DAMPING,
 )
-from fdspec.kernels.frame.results import RADIANS, STOREY_RESULTS, TOTALS
+from fdspec.kernels.frame.results import DEMAND_ROWS, DEMANDS, RADIANS, STOREY_RESULTS, TOTALS
 from fdspec.kernels.frame_batch.entry import integrate_frames
 from fdspec.model.building import Frame
 from fdspec.model.motion import GroundMotion
@@ -35,6 +35,7 @@ def peaks_of_frames(
 
     certify: whether the balance of all energies is wanted.  Returns the rows of STOREY_RESULTS for each
     storey (m, rows, N), and TOTALS (m, entries).  No history depends on which others are asked for.
+    The peaks of slip, brace force and column shear are NaN: `fdspec.engines.many_storeys.peaks_of` has them.
     """
     size = frames[0].properties.shape[1]
     by_storey = np.empty((len(frames), len(STOREY_RESULTS), size))
@@ -52,6 +53,7 @@ def peaks_of_frames(
         else:
             found = _side_by_side([frames[item] for item in items], parts, motion, certify)
             by_storey[items], totals[items] = found
+    by_storey[:, DEMANDS : DEMANDS + DEMAND_ROWS] = np.nan
     return by_storey, totals
 
 

@@ -46,10 +46,13 @@ def estimated_steps(building: Building, motion: GroundMotion, free_vibration: fl
     return float(steps * max(1.0, np.ceil(motion.dt * rates_of(building.frame).max() / RADIANS)))
 
 
-def peaks_of(frame: Frame, motion: GroundMotion, *, certify: bool) -> tuple[FloatArray, FloatArray]:
+def peaks_of(
+    frame: Frame, motion: GroundMotion, *, certify: bool, free_steps: int = 0
+) -> tuple[FloatArray, FloatArray]:
     """Integrate a frame from rest, without its course in time.
 
-    certify: whether the balance of all energies is wanted.  Returns the rows of STOREY_RESULTS for each
+    certify: whether the balance of all energies is wanted.  free_steps: steps of dt with the ground at rest
+    that follow.  Returns the rows of STOREY_RESULTS for each
     storey (rows, N), and TOTALS.
     """
     size = frame.properties.shape[1]
@@ -61,7 +64,7 @@ def peaks_of(frame: Frame, motion: GroundMotion, *, certify: bool) -> tuple[Floa
         frame.dense_damping,
         motion.acceleration,
         motion.dt,
-        0,
+        free_steps,
         certify,
         np.zeros((4, size)),
         RADIANS,
@@ -171,6 +174,10 @@ def integrate_many_storeys(
         peak_storey_shear=result["peak_storey_shear"],
         peak_base_shear=float(result["peak_storey_shear"][0]),
         residual_displacement=result["residual_displacement"],
+        peak_slip=result["peak_slip"],
+        residual_slip=result["residual_slip"],
+        peak_brace_force=result["peak_brace_force"],
+        peak_column_shear=result["peak_column_shear"],
         dissipated_energy=float(total["dissipated_energy"]),
         energy_error=float(total["energy_error"]),
         status=int(total["status"]),

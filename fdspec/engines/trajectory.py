@@ -45,6 +45,10 @@ class Course:
     peak_storey_shear: FloatArray
     peak_base_shear: float
     residual_displacement: FloatArray
+    peak_slip: FloatArray
+    residual_slip: FloatArray
+    peak_brace_force: FloatArray
+    peak_column_shear: FloatArray
     dissipated_energy: float
     energy_error: float
     status: int
@@ -56,6 +60,7 @@ class Course:
 class DeviceCourse:
     """What devices add to a history; over time (m,), (m, N) and (m, L), else (N,) and (L,)."""
 
+    brace_force: FloatArray
     column_shear: FloatArray
     plastic_deformation: FloatArray
     kinetic_energy: FloatArray
@@ -69,7 +74,7 @@ class DeviceCourse:
     link_phase: IntArray
     link_work: FloatArray
     storeys: dict[str, FloatArray]
-    """What each storey has of its own at the end, by name: `fdspec.variables.demand_variables`."""
+    """What each storey has of its own at the end, by name: `fdspec.variables.device_variables`."""
     peak_link_slip: FloatArray
     residual_link_slip: FloatArray
     peak_link_force: FloatArray
@@ -101,3 +106,16 @@ class Span:
     """Time between outputs, s."""
     outputs: int
     """Number of outputs, the first at t = 0."""
+
+
+@dataclass(frozen=True)
+class Rest:
+    """How a building comes to rest once its dampers can slip no more."""
+
+    steps: int
+    """Steps of the record's dt, the ground at rest, until nothing can slip any more."""
+    displacement: FloatArray
+    """(N,) m, in the end"""
+    slip: FloatArray
+    """(N,) m"""
+    status: int = 0

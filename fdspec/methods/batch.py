@@ -20,13 +20,14 @@ def integrate_by_method(
     slip_force: FloatArray,
     kinetic_slip_force: FloatArray,
     motion: GroundMotion,
+    free_steps: int = 0,
 ) -> FloatArray:
     """Return results (m, p, len(RESULTS)) of frames (m, 6) under each of the slip forces (p,).
 
     A frame's row: floor mass, damping, stiffness, brace mass, damping, stiffness, SI units.
     """
     results = np.empty((frames.shape[0], slip_force.size, len(RESULTS)))
-    span = Span(0, motion.duration, 2)
+    span = Span(free_steps, motion.duration + free_steps * motion.dt, 2)
     for row, frame in enumerate(frames):
         for column, forces in enumerate(zip(slip_force, kinetic_slip_force, strict=True)):
             building = _building(frame, *forces)
@@ -57,5 +58,9 @@ def _results(course: Course) -> tuple[float, ...]:
         "input_energy": course.input_energy[-1],
         "energy_error": course.energy_error,
         "status": course.status,
+        "peak_slip": course.peak_slip[0],
+        "residual_slip": course.residual_slip[0],
+        "peak_brace_force": course.peak_brace_force[0],
+        "peak_column_shear": course.peak_column_shear[0],
     }
     return tuple(float(values[name]) for name in RESULTS)

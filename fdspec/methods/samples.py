@@ -73,6 +73,7 @@ def course_of(building: Building, samples: Samples, span: Span) -> Course:
     """
     s, D, h = samples, drifts(building.n_storeys), samples.step
     drift = s.displacement @ D.T
+    below = s.displacement - drift
     stretch_rate = s.brace_velocity - (s.velocity - s.velocity @ D.T)
     inertia = building.floor_mass * s.acceleration + building.brace_mass * s.brace_acceleration
     shear = -np.cumsum(inertia[:, ::-1], axis=1)[:, ::-1]
@@ -80,7 +81,8 @@ def course_of(building: Building, samples: Samples, span: Span) -> Course:
     given = -0.5 * h * (momentum[:-1] * s.ground[:, 0] + momentum[1:] * s.ground[:, 1])
     lost = np.einsum("ti,ij,tj->t", s.velocity, building.damping_matrix, s.velocity)
     lost += stretch_rate**2 @ building.brace_damping
-    slip = np.diff(s.displacement - s.brace_displacement, axis=0)
+    offset = s.displacement - s.brace_displacement
+    slip = np.diff(offset, axis=0)
     force = mean_of_ends(s.friction_force) if s.held_force is None else s.held_force
     travel, friction = running_sum(np.abs(slip)), running_sum(force * slip)
     input_energy, viscous = running_sum(given), running_sum(h * mean_of_ends(lost))
@@ -90,6 +92,10 @@ def course_of(building: Building, samples: Samples, span: Span) -> Course:
     counted = np.where(building.slip_force > 0.0, s.phase, 0)
     at, storey = np.nonzero(np.diff(counted, axis=0, prepend=0))
     read = _Reader(span, h, s.displacement.shape[0])
+    brace_force = building.brace_stiffness * (s.brace_displacement - below)
+    brace_force += building.brace_damping * stretch_rate
+    columns = np.cumsum((s.displacement @ building.stiffness_matrix)[:, ::-1], axis=1)[:, ::-1]
+    offset = np.where(building.brace_stiffness > 0.0, offset, 0.0)
     peak_shear = np.max(np.abs(shear), axis=0)
     return Course(
         displacement=read(s.displacement),
@@ -114,6 +120,10 @@ def course_of(building: Building, samples: Samples, span: Span) -> Course:
         peak_storey_shear=peak_shear,
         peak_base_shear=float(peak_shear[0]),
         residual_displacement=s.displacement[-1].copy(),
+        peak_slip=np.max(np.abs(offset), axis=0),
+        residual_slip=offset[-1].copy(),
+        peak_brace_force=np.max(np.abs(brace_force), axis=0),
+        peak_column_shear=np.max(np.abs(columns), axis=0),
         dissipated_energy=float(friction[-1].sum()),
         energy_error=float(abs(missing) / scale) if scale > 0.0 else 0.0,
         status=s.status,

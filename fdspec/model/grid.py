@@ -124,6 +124,8 @@ class Grid:
     def parameters(self) -> dict[str, Any]:
         """All fields by name, of devices and intensity those that are there: how a cube was made."""
         absent = set(DEVICE_FIELDS) - set(self.devices)
+        if self.storey_height is not None:
+            absent.discard("storey_height")
         if self.intensity is None:
             absent.add("intensity")
         return {name: getattr(self, name) for name in GRID_FIELDS if name not in absent}

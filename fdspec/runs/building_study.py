@@ -45,7 +45,7 @@ from fdspec.runs.study import (
     text_of,
     unknown_records,
 )
-from fdspec.runs.sweep_buildings import DEMANDS, OUTPUTS
+from fdspec.runs.sweep_buildings import DEMANDS, ON_REQUEST, OUTPUTS
 
 BUILDINGS: Final = "buildings"
 """The field that makes a study one of buildings."""
@@ -273,7 +273,10 @@ class _File(BaseModel):
     outputs: (
         Annotated[
             tuple[
-                Annotated[StrictStr, AfterValidator(partial(known_output, known=(*OUTPUTS, *DEMANDS)))], ...
+                Annotated[
+                    StrictStr, AfterValidator(partial(known_output, known=(*OUTPUTS, *ON_REQUEST, *DEMANDS)))
+                ],
+                ...,
             ],
             AfterValidator(distinct),
         ]

@@ -14,7 +14,8 @@ from fdspec.methods.batch import integrate_by_method
 from fdspec.model.building import Building, ModalDamping
 from fdspec.model.grid import Grid
 from fdspec.model.motion import GroundMotion
-from fdspec.variables import CUBE, demand_variables
+from fdspec.runs.after import NOTHING, After
+from fdspec.variables import CUBE, device_variables
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -23,7 +24,7 @@ Columns = tuple[FloatArray, FloatArray, FloatArray]
 STRAIN: Final = ("strain_energy_area", "peak_strain_energy")
 """Results of a pass of their own over every history."""
 
-DEMANDS: Final = tuple(v.name for v in demand_variables(()))
+DEMANDS: Final = tuple(v.name for v in device_variables(()))
 """Outputs of frames with devices alone."""
 
 
@@ -44,9 +45,9 @@ def timed(grid: Grid, motion: GroundMotion, certify: bool = True) -> tuple[float
 
 
 def demands_of(grid: Grid) -> tuple[str, ...]:
-    """Return what only a cube of frames with devices has."""
+    """Return what only a cube of frames with devices or of known height has."""
     if not grid.devices:
-        return ()
+        return () if grid.storey_height is None else ("peak_drift_ratio",)
     return tuple(name for name in DEMANDS if name != "peak_drift_ratio" or grid.storey_height is not None)
 
 
@@ -72,6 +73,7 @@ def run_columns(
     other: Method | None,
     columns: IntArray,
     motion: GroundMotion,
+    after: After = NOTHING,
 ) -> Columns:
     """Integrate some (stiffness ratio, period) pairs: all pretensions, never slipping, without brace.
 
@@ -79,7 +81,7 @@ def run_columns(
     RESULTS; where wanted, those of STRAIN follow, save of braced frames.
     """
     levels, slip_force, kinetic = grid.intensities, grid.slip_force, grid.kinetic_slip_force
-    run = partial(_run_forces, grid, certify, strain, other, columns)
+    run = partial(_run_forces, grid, certify, strain, other, columns, after)
     if scales(grid, other):
         # R(s a, F) = s R(a, F / s): further slip forces of the same frames under the same motion.
         each = levels[:, np.newaxis]
@@ -115,6 +117,7 @@ def _run_forces(
     strain: bool,
     other: Method | None,
     columns: IntArray,
+    after: After,
     slip_force: FloatArray,
     kinetic: FloatArray,
     motion: GroundMotion,
@@ -124,14 +127,16 @@ def _run_forces(
 
     frames = frames_of(grid, columns)
     exact = slice(None) if other is None and not grid.devices else slice(0)
-    braced, results = integrate_columns(frames, slip_force[exact], kinetic[exact], motion, certify=certify)
+    free_steps = after.free_steps(motion)
+    integrate = partial(integrate_columns, free_steps=free_steps, at_rest=after.at_rest)
+    braced, results = integrate(frames, slip_force[exact], kinetic[exact], motion, certify=certify)
     if grid.devices:
-        results = _run_devices(grid, frames, slip_force, kinetic, motion)
+        results = _run_devices(grid, frames, slip_force, kinetic, motion, free_steps)
     if other is not None:
-        results = integrate_by_method(other, frames, slip_force, kinetic, motion)
+        results = integrate_by_method(other, frames, slip_force, kinetic, motion, free_steps)
     bare = frames[columns < grid.period.size].copy()  # the first stiffness ratio's pairs stand for all
     bare[:, 3:] = 0.0
-    free, _ = integrate_columns(bare, np.empty(0), np.empty(0), motion, certify=False)
+    free, _ = integrate(bare, np.empty(0), np.empty(0), motion, certify=False)
     if strain:
         from fdspec.engines.strain import strain_of_columns
 
@@ -143,7 +148,12 @@ def _run_forces(
 
 
 def _run_devices(
-    grid: Grid, frames: FloatArray, slip_force: FloatArray, kinetic: FloatArray, motion: GroundMotion
+    grid: Grid,
+    frames: FloatArray,
+    slip_force: FloatArray,
+    kinetic: FloatArray,
+    motion: GroundMotion,
+    free_steps: int,
 ) -> FloatArray:
     """Integrate frames (m, 6) with devices, all pretensions: (m, n_f, results) in the order of `rows_of`."""
     from fdspec.engines.devices import peaks_of
@@ -154,7 +164,7 @@ def _run_devices(
         for j, forces in enumerate(zip(slip_force, kinetic, strict=True)):
             damping = ModalDamping(grid.damping_ratio)
             building = Building(m_f, k_f, m_d, k_d, *forces, damping, c_d, **grid.devices)
-            storey, whole = peaks_of(building, motion)
+            storey, whole = peaks_of(building, motion, free_steps)
             found = {name: float(values[0]) for name, values in storey.items()} | whole
             found["peak_base_shear"] = found["peak_storey_shear"]
             results[i, j] = [found[name] for name in rows]

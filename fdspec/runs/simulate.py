@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from fdspec.engines.demands import brace_force_of, column_shear_of
 from fdspec.engines.step_count import refuse_endless
-from fdspec.engines.trajectory import Course, CourseWithDevices, DeviceCourse, FloatArray, Span
+from fdspec.engines.trajectory import Course, CourseWithDevices, DeviceCourse, FloatArray, Rest, Span
 from fdspec.errors import IntegrationError, InvalidInput
 from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.model.building import Building
@@ -39,6 +41,7 @@ def simulate(
     initial_displacement: ArrayLike | None = None,
     initial_velocity: ArrayLike | None = None,
     start_from: xr.Dataset | None = None,
+    at_rest: bool = False,
     max_steps: float | None = None,
 ) -> xr.Dataset:
     """Integrate one history exactly, event by event, or by another method; return its course in time.
@@ -58,6 +61,9 @@ def simulate(
     free_vibration : float, s
         How long to go on after the motion's end, the ground at rest; rounded up to whole steps of
         the motion.
+    at_rest : bool
+        Go on from there until the energy left can make no damper slip, and give ``residual_displacement``,
+        ``residual_drift`` and ``residual_slip`` where the building comes to rest.
     initial_displacement, initial_velocity : array_like, m and m/s, optional
         Relative to the ground: shape (N,) for the floors, each brace moving with its floor as if no
         damper had ever slipped; shape (2, N) for floors and braces apart.
@@ -101,7 +107,7 @@ def simulate(
         raise InvalidInput(f"motion must be a GroundMotion, got {type(motion).__name__}")
     span = _span(motion, dt_out, free_vibration)
     samples = float(motion.n + span.free_steps)
-    traces = (13.0 * building.n_storeys + 6.0) * span.outputs
+    traces = (16.0 * building.n_storeys + 6.0) * span.outputs
     refuse_large(8.0 * (samples + 2.0 * traces), f"a history of {samples:.4g} samples")
     if method == EXACT:
         seconds = seconds_of_history(building, motion.dt, samples)
@@ -126,6 +132,10 @@ def simulate(
             raise InvalidInput(f"start_from needs method 'exact', got {other.name!r}")
     if other is None:
         refuse_endless(building, motion.dt, motion.n - 1 + span.free_steps, max_steps)
+    rest = None
+    if at_rest:
+        rest = _rest(building, motion, span, start, resume, other)
+        span = _span(motion, dt_out, free_vibration, rest.steps)
     if other is not None:
         if building.has_devices:
             raise InvalidInput(
@@ -157,6 +167,8 @@ def simulate(
             f"the history of {building!r} under {motion.name or 'the motion'} ended with status "
             f"{STATUSES[course.status]} after {course.transition_time.size} changes of phase"
         )
+    if rest is not None:
+        course = replace(course, residual_displacement=rest.displacement, residual_slip=rest.slip)
     solved = building if other is None else other.model(building)
     return _dataset(solved, motion, span, start, course, {} if other is None else other.parameters)
 
@@ -175,13 +187,41 @@ def _end_of(history: object, building: Building) -> FloatArray:
     return np.array(history["end_state"].values, dtype=np.float64)
 
 
-def _span(motion: GroundMotion, dt_out: object, free_vibration: object) -> Span:
+def _rest(
+    building: Building,
+    motion: GroundMotion,
+    span: Span,
+    start: FloatArray,
+    resume: FloatArray | None,
+    other: Method | None,
+) -> Rest:
+    """Find when and where the building comes to rest."""
+    if other is not None or building.has_devices:
+        what = f"method {other.name!r}" if other is not None else "buildings with devices"
+        raise InvalidInput(f"at_rest is for the exact method and dampers alone, not for {what}")
+    if building.n_storeys == 1:
+        from fdspec.engines.single_storey import rest_of_single_storey
+
+        rest = rest_of_single_storey(building, motion, span, start, resume)
+    else:
+        from fdspec.engines.rest import rest_of_building
+
+        rest = rest_of_building(building, motion, span, start, resume)
+    if rest.status != 0:
+        raise IntegrationError(
+            f"{building!r} has not come to rest {rest.steps * motion.dt:g} s after the motion; "
+            f"status {STATUSES[rest.status]}"
+        )
+    return rest
+
+
+def _span(motion: GroundMotion, dt_out: object, free_vibration: object, more_steps: int = 0) -> Span:
     if not (isinstance(free_vibration, int | float) and 0.0 <= free_vibration < math.inf):
         raise InvalidInput(f"free_vibration must be zero or a positive time in s, got {free_vibration!r}")
     every = motion.dt if dt_out is None else dt_out
     if not (isinstance(every, int | float) and 0.0 < every < math.inf):
         raise InvalidInput(f"dt_out must be a positive time in s, got {dt_out!r}")
-    free_steps = math.ceil(free_vibration / motion.dt - 1e-9)
+    free_steps = math.ceil(free_vibration / motion.dt - 1e-9) + more_steps
     total = (motion.n - 1 + free_steps) * motion.dt
     outputs = math.floor(total / every + ROUNDING) + 1
     if outputs > MAX_OUTPUTS:
@@ -237,6 +277,8 @@ def _dataset(
         np.einsum("ti,ij,tj->t", course.displacement, building.stiffness_matrix, course.displacement)
         + brace_drift**2 @ building.brace_stiffness
     )
+    braced = building.brace_stiffness > 0.0
+    slip = np.where(braced, course.displacement - course.brace_displacement, 0.0)
     residual = course.residual_displacement
     storeys = np.arange(1, building.n_storeys + 1)
     each = ("time", "storey")
@@ -250,6 +292,9 @@ def _dataset(
         "brace_displacement": (each, course.brace_displacement),
         "brace_velocity": (each, course.brace_velocity),
         "friction_force": (each, course.friction_force),
+        "slip": (each, slip),
+        "brace_force": (each, brace_force_of(building, course)),
+        "column_shear": (each, column_shear_of(building, course)),
         "phase": (each, course.phase.astype(np.int8)),
         "slip_travel": (each, course.slip_travel),
         "kinetic_energy": ("time", kinetic),
@@ -268,6 +313,10 @@ def _dataset(
         "peak_storey_shear": ("storey", course.peak_storey_shear),
         "peak_base_shear": ((), course.peak_base_shear),
         "residual_displacement": ("storey", residual),
+        "peak_slip": ("storey", course.peak_slip),
+        "residual_slip": ("storey", course.residual_slip),
+        "peak_brace_force": ("storey", course.peak_brace_force),
+        "peak_column_shear": ("storey", course.peak_column_shear),
         "residual_drift": ("storey", np.diff(residual, prepend=0.0)),
         "storey_transitions": (
             "storey",
@@ -299,6 +348,8 @@ def _dataset(
         "kinetic_slip_force": ("storey", building.kinetic_slip_force),
         **{name: ((), value) for name, value in told.items()},
     }
+    if not np.isnan(building.storey_height).any():
+        variables["peak_drift_ratio"] = ("storey", course.peak_drift / building.storey_height)
     if course.end is not None:
         variables["end_state"] = ("state", course.end)
     if isinstance(course, CourseWithDevices):
@@ -332,11 +383,10 @@ def _of_devices(building: Building, devices: DeviceCourse) -> dict[str, Any]:
         "gravity_energy": ("time", devices.gravity_energy),
         "yielding_energy": ("time", devices.column_work.sum(axis=1)),
         "links_energy": ("time", devices.link_work.sum(axis=1)),
-        "column_shear": (each, devices.column_shear),
         "plastic_deformation": (each, devices.plastic_deformation),
     }
     for name, values in devices.storeys.items():
-        if name != "peak_drift_ratio" or not np.isnan(building.storey_height).any():
+        if name != "peak_drift_ratio":
             variables[name] = ("storey", values.astype(HISTORY[name].dtype))
     if building.links:
         over_time, link = ("time", "link"), "link"

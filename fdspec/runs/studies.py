@@ -59,7 +59,7 @@ def outputs_of(study: AnyStudy) -> tuple[str, ...]:
         usual = of_frames.usual_outputs(study.grid)
         known = (*usual, *of_frames.ON_REQUEST)
     else:
-        usual = known = of_buildings.known_outputs(study.grid)
+        usual, known = of_buildings.usual_outputs(study.grid), of_buildings.known_outputs(study.grid)
     return chosen(usual if study.outputs is None else study.outputs, known, study.certify)
 
 
@@ -75,7 +75,7 @@ def expected(study: AnyStudy, motions: Motions) -> float:
     """Return the seconds that the study takes on this machine, rather too many."""
     if isinstance(study, Study):
         return wall_seconds(motions, study.grid, study.certify)
-    return of_buildings.measured(motions, study.grid, study.certify) / cores()
+    return of_buildings.measured(motions, study.grid, study.certify, outputs_of(study)) / cores()
 
 
 def rough_seconds(study: AnyStudy, motions: Motions) -> float:
@@ -124,7 +124,7 @@ def planned(study: AnyStudy, motions: Motions) -> Planned:
     return Planned(
         (*levels, ("buildings", n_b), ("storeys", storeys), ("stiffness scales", n_k), ("slip scales", n_s)),
         len(motions) * study.grid.intensities.size * n_b * n_k * n_s,
-        of_buildings.measured(motions, study.grid, study.certify),
+        of_buildings.measured(motions, study.grid, study.certify, outputs_of(study)),
         None,
         sum(of_buildings.bytes_of(motions, study.grid, outputs).values()),
     )

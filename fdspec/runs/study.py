@@ -28,14 +28,14 @@ from fdspec.model.motion import GroundMotion
 from fdspec.model.toml_lines import key_lines, line_of, parsed
 from fdspec.records import catalogue, load_record, read_record
 from fdspec.runs.record_scaling import SCALING_FIELDS, Scaling, scaling_of
-from fdspec.variables import CUBE, demand_variables
+from fdspec.variables import CUBE, device_variables
 
 AXES: Final = ("stiffness_ratio", "pretension", "period", "intensity")
 
 STUDY_RECORDS: Final = ("FSR1", "FSR2", "FSR3", "FMR1", "FMR2", "FMR3", "FHR1", "FHR2", "FHR3")
 
 _OUTPUTS: Final = tuple(v for v in CUBE.values() if v.dims[:1] == ("record",) and len(v.dims) > 1)
-DEMANDS: Final = tuple(v.name for v in demand_variables(()))
+DEMANDS: Final = tuple(v.name for v in device_variables(()))
 """What it computes of frames with columns that yield, gravity, slots or re-centring springs alone."""
 
 OUTPUTS: Final = tuple(v.name for v in _OUTPUTS if not v.on_request and v.name not in DEMANDS)

@@ -18,6 +18,7 @@ from fdspec.errors import InvalidInput
 from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.model.grid import Grid
 from fdspec.model.motion import GroundMotion
+from fdspec.runs.after import After, zero_or_positive
 from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long
 from fdspec.runs.columns import DEMANDS, STRAIN, Columns, demands_of, rows_of, run_columns, warm
 from fdspec.runs.cost import seconds_of_sweep
@@ -83,6 +84,8 @@ def sweep(
     slot_stiffness: float | None = None,
     recentring_stiffness: float | None = None,
     intensity: ArrayLike | None = None,
+    free_vibration: float = 0.0,
+    at_rest: bool = False,
     outputs: Iterable[str] | None = None,
     certify: bool = True,
     workers: int | None = None,
@@ -117,11 +120,19 @@ def sweep(
     recentring_stiffness : float, optional
         Devices of all frames alike, as for `fdspec.Building`: columns that yield, gravity, slots, re-centring
         springs.  With them each history is integrated by itself, a thousand times slower, the cube has the
-        demands of `fdspec.variables.demand_variables` too, and a history may end with the status
+        demands of `fdspec.variables.device_variables` too, and a history may end with the status
         ``collapsed``.  The limits that ride along stay those of the elastic frame.
     intensity : array_like, optional
         Factors on the ground motions, positive, strictly increasing: adds the dim ``intensity`` after
         ``record``.  What is told of the records, ``pga`` among it, stays that of factor 1.
+    free_vibration : float, s
+        How long each history goes on after its motion's end, the ground at rest; rounded up to whole steps of
+        the motion.
+    at_rest : bool
+        Go on from there until the energy left can make no damper slip, and give ``residual_displacement`` and
+        ``residual_slip`` where the frame comes to rest: 0 where a damper has no friction.  Peaks are those up
+        to where nothing slips any more.  A history that takes more than 2 million steps to get there has the
+        status ``transition_cap_reached``.
     outputs : iterable of str, optional
         Variables of the cube; unless given, all but those of `ON_REQUEST`.
     certify : bool
@@ -200,7 +211,15 @@ def sweep(
     seconds = seconds_of_sweep(grid, motions, certify)
     refuse_endless(motions, grid, wanted, sum(seconds), store)
     warn_of_units(motions, period=grid.period, slip_force=grid.slip_force, floor_mass=grid.floor_mass)
-    run = partial(run_columns, grid, certify, bool(strain), other)
+    after = After(zero_or_positive("free_vibration", free_vibration), at_rest)
+    if strain and (free_vibration or at_rest):
+        raise InvalidInput(
+            f"outputs {', '.join(strain)} end with the motion: not with free_vibration or at_rest"
+        )
+    if at_rest and (other is not None or grid.devices):
+        what = f"method {other.name!r}" if other is not None else "frames with devices"
+        raise InvalidInput(f"at_rest is for the exact method and dampers alone, not for {what}")
+    run = partial(run_columns, grid, certify, bool(strain), other, after=after)
     fan = partial(
         fan_out,
         motions=motions,
@@ -228,6 +247,7 @@ def sweep(
         parameters={
             **grid.parameters,
             **({} if other is None else other.parameters),
+            **after.parameters,
             "certify": certify,
             "outputs": list(wanted),
         },
@@ -319,7 +339,9 @@ def _variables(
     n_sr, n_f, n_t = grid.shape
     n_i = grid.intensities.size
     responses: dict[str, NDArray[Any]] = {
-        name: np.empty((n_r, n_i, n_sr, n_f, n_t), dtype=CUBE[name].dtype) for name in wanted if name in rows
+        name: np.empty((n_r, n_i, n_sr, n_f, n_t), dtype=CUBE[name].dtype)
+        for name in wanted
+        if CUBE[name].dims == STUDY_DIMS
     }
     bare: dict[str, NDArray[Any]] = {name: np.empty((n_r, n_i, n_t)) for name in wanted if name in BARE}
     braced: dict[str, NDArray[Any]] = {
@@ -328,7 +350,11 @@ def _variables(
     for (r, columns), (out, held, free) in zip(tasks, parts, strict=True):
         ratio, period = np.unravel_index(columns, (n_sr, n_t))
         for name, values in responses.items():
-            values[r, :, ratio, :, period] = out[..., rows.index(name)]
+            if name not in rows and grid.storey_height is not None:  # peak_drift_ratio
+                drift_ratio = out[..., rows.index("peak_displacement")] / grid.storey_height
+                values[r, :, ratio, :, period] = drift_ratio
+            else:
+                values[r, :, ratio, :, period] = out[..., rows.index(name)]
         for name, values in braced.items():
             values[r, :, ratio, period] = held[..., rows.index(BRACED[name])]
         for name, values in bare.items():

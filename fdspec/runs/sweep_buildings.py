@@ -15,9 +15,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
+from fdspec.engines.trajectory import Span
+from fdspec.errors import InvalidInput
 from fdspec.model.building import Building, Frame
 from fdspec.model.building_grid import BuildingGrid, Buildings
 from fdspec.model.motion import GroundMotion
+from fdspec.runs.after import NOTHING, After, zero_or_positive
 from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long
 from fdspec.runs.cost import seconds_of_history
 from fdspec.runs.cube import assemble, chosen, named
@@ -25,7 +28,7 @@ from fdspec.runs.plausible import warn_of_units
 from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.task import Task, cores, plan, require_per_task
 from fdspec.scheduling.threads import fan_out
-from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS, INTENSITY_BUILDING_CUBE, Registry, demand_variables
+from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS, INTENSITY_BUILDING_CUBE, Registry, device_variables
 
 if TYPE_CHECKING:
     from fdspec.scheduling.task import Client
@@ -48,12 +51,17 @@ WINDOW: Final = 400
 """Samples of the record that they are computed under."""
 
 LIMITS: Final = ("elastic_acceleration", "braced_acceleration")
-DEMANDS: Final = tuple(v.name for v in demand_variables(()))
+DEMANDS: Final = tuple(v.name for v in device_variables(()))
 """Outputs of sweeps with devices alone."""
 RESPONSES: Final = tuple(
     v.name for v in BUILDING_CUBE.values() if v.dims[:4] == BUILDING_DIMS and v.name not in DEMANDS
 )
-OUTPUTS: Final = (*RESPONSES, *LIMITS)
+OUTPUTS: Final = (*(name for name in RESPONSES if not BUILDING_CUBE[name].on_request), *LIMITS)
+ON_REQUEST: Final = tuple(name for name in RESPONSES if BUILDING_CUBE[name].on_request)
+"""Outputs that are computed only where they are named, or where each history is integrated by itself.
+
+Histories that run side by side leave them out.
+"""
 
 
 def sweep_buildings(
@@ -63,6 +71,8 @@ def sweep_buildings(
     slip_scale: ArrayLike,
     stiffness_scale: ArrayLike,
     intensity: ArrayLike | None = None,
+    free_vibration: float = 0.0,
+    at_rest: bool = False,
     outputs: Iterable[str] | None = None,
     certify: bool = True,
     workers: int | None = None,
@@ -95,8 +105,17 @@ def sweep_buildings(
     intensity : array_like, optional
         Factors on the ground motions, positive, strictly increasing: adds the dim ``intensity`` after
         ``record``.  What is told of the records, ``pga`` among it, stays that of factor 1.
+    free_vibration : float, s
+        How long each history goes on after its motion's end, the ground at rest; rounded up to whole steps of
+        the motion.
+    at_rest : bool
+        Go on from there until the energy left can make no damper slip, and give ``residual_displacement``,
+        ``residual_drift`` and ``residual_slip`` where the building comes to rest; twice the work.
     outputs : iterable of str, optional
-        Variables of the cube; all unless given.
+        Variables of the cube; unless given, all but those of `ON_REQUEST`: ``peak_slip``,
+        ``peak_brace_force``, ``peak_column_shear``.  Histories that run side by side have no room for them.
+        With one of them, with free_vibration, at_rest or devices, each history is integrated by itself, which
+        takes longer and moves the other results by rounding; unless outputs are given, they are there then.
     certify : bool
         Whether to compute ``energy_error``; without it the sweep is faster.
     workers : int, optional
@@ -119,7 +138,7 @@ def sweep_buildings(
     -------
     xarray.Dataset
         Where a building has columns that yield, slots, gravity or links, all cells have the demands on
-        these too (`fdspec.variables.demand_variables`), and a history may end with the status ``collapsed``.
+        these too (`fdspec.variables.device_variables`), and a history may end with the status ``collapsed``.
         Dims (record, building, stiffness_scale, slip_scale) and, for what each storey has of its own,
         storey; variables, units and meanings are those of `fdspec.variables.BUILDING_CUBE`, with intensities
         of `fdspec.variables.INTENSITY_BUILDING_CUBE`.
@@ -150,9 +169,13 @@ def sweep_buildings(
     {'record': 1, 'building': 1, 'stiffness_scale': 1, 'slip_scale': 2, 'storey': 2}
     """
     grid = BuildingGrid(buildings, stiffness_scale, slip_scale, intensity)
+    after = After(zero_or_positive("free_vibration", free_vibration), at_rest)
+    if at_rest and _with_devices(grid):
+        raise InvalidInput("at_rest is for dampers alone, not for buildings with devices")
     motions = named(motions)
     require_per_task(cells_per_task, "cells_per_task")
-    wanted = chosen(outputs, known_outputs(grid), certify)
+    usual = usual_outputs(grid, after)
+    wanted = chosen(usual if outputs is None else outputs, known_outputs(grid), certify)
     each = _ends(grid)[-1 if set(LIMITS) & set(wanted) else 0]
     histories = grid.intensities.size * each
     refuse_endless(motions, grid, wanted, store)
@@ -179,7 +202,7 @@ def sweep_buildings(
         registry=_registry(grid),
         motions=motions,
         title="Peak response of buildings with friction dampers",
-        parameters=parameters_of(grid, wanted, certify),
+        parameters={**parameters_of(grid, wanted, certify), **after.parameters},
         command="fdspec.sweep_buildings",
     )
     if store is not None:
@@ -189,7 +212,7 @@ def sweep_buildings(
             store,
             cube_of({}),
             [_registry(grid)[name] for name in wanted],
-            partial(_block, grid, certify, wanted),
+            partial(_block, grid, certify, wanted, after),
             fan,
             items=CELLS,
             seconds=sum(seconds),
@@ -203,13 +226,20 @@ def sweep_buildings(
             "store, store='cube.zarr', what is finished is kept",
             expected / 60.0,
         )
-    parts = fan(partial(_run, grid, certify, each), tasks=tasks)
+    run = partial(_run, grid, certify, each, after=after, alone=_alone(grid, wanted, after))
+    parts = fan(run, tasks=tasks)
     return cube_of(_variables(grid, _rows(grid), len(motions), tasks, parts, wanted))
+
+
+def usual_outputs(grid: BuildingGrid, after: After = NOTHING) -> tuple[str, ...]:
+    """Return what a sweep of these buildings computes unless it is told otherwise."""
+    by_itself = after != NOTHING or _with_devices(grid)
+    return known_outputs(grid) if by_itself else (*OUTPUTS, *_demands(grid))
 
 
 def known_outputs(grid: BuildingGrid) -> tuple[str, ...]:
     """Return what can be computed of these buildings: of devices, where there are some."""
-    return (*OUTPUTS, *_demands(grid))
+    return (*OUTPUTS, *ON_REQUEST, *_demands(grid))
 
 
 def parameters_of(grid: BuildingGrid, wanted: Sequence[str], certify: bool) -> dict[str, object]:
@@ -255,7 +285,9 @@ def refuse_endless(
     refuse_long(sum(_seconds(motions, grid, histories)), SWEEP_HOURS, what)
 
 
-def measured(motions: Sequence[GroundMotion], grid: BuildingGrid, certify: bool = True) -> float:
+def measured(
+    motions: Sequence[GroundMotion], grid: BuildingGrid, certify: bool = True, outputs: Iterable[str] = ()
+) -> float:
     """Core seconds that a sweep takes, from a few of its histories, computed here.
 
     They are taken around the strongest shaking, so that it is rather too much.
@@ -268,9 +300,11 @@ def measured(motions: Sequence[GroundMotion], grid: BuildingGrid, certify: bool 
     cells = _ends(grid)[0]
     count = min(cells, SAMPLE)
     chosen_cells = ((np.arange(count) + 0.5) * cells / count).astype(np.int64)
-    _run(grid, certify, _ends(grid)[-1], chosen_cells[:1], window)  # loads the kernels
+    alone = _alone(grid, tuple(outputs), NOTHING)
+    run = partial(_run, grid, certify, _ends(grid)[-1], motion=window, alone=alone)
+    run(chosen_cells[:1])  # loads the kernels
     started = time.thread_time()
-    _run(grid, certify, _ends(grid)[-1], chosen_cells, window)
+    run(chosen_cells)
     each = (time.thread_time() - started) / (count * window.n)
     return each * sum(motion.n for motion in motions) * grid.intensities.size * _ends(grid)[-1]
 
@@ -291,7 +325,12 @@ def _seconds(motions: Sequence[GroundMotion], grid: BuildingGrid, histories: int
 
 
 def _block(
-    grid: BuildingGrid, certify: bool, wanted: Sequence[str], cells: IntArray, motion: GroundMotion
+    grid: BuildingGrid,
+    certify: bool,
+    wanted: Sequence[str],
+    after: After,
+    cells: IntArray,
+    motion: GroundMotion,
 ) -> dict[str, NDArray[np.generic]]:
     """Compute the part of the cube that these cells, a block of all three axes, make up."""
     b, k, s = map(np.unique, np.unravel_index(cells, grid.shape))
@@ -307,8 +346,13 @@ def _block(
     levels = each * np.arange(grid.intensities.size)[:, np.newaxis]
     numbers = (levels + np.concatenate(items)).ravel()
     task = Task(0, np.arange(numbers.size))
-    done = _run(grid, certify, each, numbers, motion)
+    done = _run(grid, certify, each, numbers, motion, after, _alone(grid, wanted, after))
     return _variables(grid.part(b, k, s), _rows(grid), 1, [task], [done], mine)
+
+
+def _alone(grid: BuildingGrid, wanted: Sequence[str], after: After) -> bool:
+    """Whether each history is integrated by itself, for what those side by side leave out."""
+    return after != NOTHING or (not _with_devices(grid) and bool(set(ON_REQUEST) & set(wanted)))
 
 
 def _registry(grid: BuildingGrid) -> Registry:
@@ -374,11 +418,18 @@ def _warm(grid: BuildingGrid) -> None:
 
 
 def _run(
-    grid: BuildingGrid, certify: bool, each: int, histories: IntArray, motion: GroundMotion
+    grid: BuildingGrid,
+    certify: bool,
+    each: int,
+    histories: IntArray,
+    motion: GroundMotion,
+    after: After = NOTHING,
+    alone: bool = False,
 ) -> tuple[FloatArray, FloatArray]:
     """Integrate some histories of a record: results by storey (m, rows, N) and totals (m, entries).
 
-    each: histories at one intensity; those of the first come first.
+    each: histories at one intensity; those of the first come first.  alone: whether each is integrated by
+    itself.
     """
     levels, of_level = np.divmod(histories, each)
     by_storey = np.empty((histories.size, len(_rows(grid)), grid.n_storeys))
@@ -386,7 +437,7 @@ def _run(
     for level in np.unique(levels).tolist():
         at, s = levels == level, float(grid.intensities[level])
         shaken = motion if s == 1.0 else motion.times(s)
-        by_storey[at], totals[at] = _run_level(grid, certify, of_level[at], shaken)
+        by_storey[at], totals[at] = _run_level(grid, certify, of_level[at], shaken, after, alone)
     return by_storey, totals
 
 
@@ -397,11 +448,16 @@ def _totals() -> tuple[str, ...]:
 
 
 def _run_level(
-    grid: BuildingGrid, certify: bool, histories: IntArray, motion: GroundMotion
+    grid: BuildingGrid,
+    certify: bool,
+    histories: IntArray,
+    motion: GroundMotion,
+    after: After,
+    alone: bool,
 ) -> tuple[FloatArray, FloatArray]:
     """Integrate the same, all at the intensity of this motion."""
-    if _with_devices(grid):
-        results = [_run_one(grid, certify, int(history), motion) for history in histories]
+    if alone or _with_devices(grid):
+        results = [_run_one(grid, certify, int(history), motion, after, alone) for history in histories]
         return np.stack([rows for rows, _ in results]), np.stack([whole for _, whole in results])
     from fdspec.engines.frames import peaks_of_frames
     from fdspec.kernels.frame.results import STOREY_RESULTS, TOTALS
@@ -418,29 +474,70 @@ def _run_level(
 
 
 def _run_one(
-    grid: BuildingGrid, certify: bool, history: int, motion: GroundMotion
+    grid: BuildingGrid, certify: bool, history: int, motion: GroundMotion, after: After, alone: bool
 ) -> tuple[FloatArray, FloatArray]:
     """Integrate one history by the engine for its building: rows of `_rows` (rows, N), and TOTALS.
 
     The limits that ride along are those of the elastic frame. Beside a building with devices, one without
     is integrated by both engines: its peaks are those of the engine of frames, to the bit.
     """
-    from fdspec.engines.frames import peaks_of_frames
+    from fdspec.kernels.frame.results import DEMANDS as FIRST_DEMAND
     from fdspec.kernels.frame.results import STOREY_RESULTS, TOTALS
 
-    if history >= _ends(grid)[0]:
-        by_storey, of_all = peaks_of_frames([_frame(grid, history)], motion, certify=False)
+    cell = history < _ends(grid)[0]
+    free_steps = after.free_steps(motion)
+    if after.at_rest and cell:
+        return _run_to_rest(grid, certify, history, motion, free_steps)
+    by_frames = partial(
+        _of_frame, motion=motion, certify=certify and cell, free_steps=free_steps, alone=alone
+    )
+    if not (cell and _with_devices(grid)):
+        by_storey, totals = by_frames(_frame(grid, history))
         missing = np.zeros((len(_rows(grid)) - len(STOREY_RESULTS), grid.n_storeys))
-        return np.concatenate([by_storey[0], missing]), of_all[0]
+        return np.concatenate([by_storey, missing]), totals
     from fdspec.engines.devices import peaks_of as peaks_with_devices
 
     building = _building(grid, history)
-    storeys, whole = peaks_with_devices(building, motion)
+    storeys, whole = peaks_with_devices(building, motion, free_steps)
     table = np.stack([storeys[name] for name in _rows(grid)])
     totals = np.array([whole[name] for name in TOTALS])
     if not building.has_devices:
-        by_storey, of_all = peaks_of_frames([_frame(grid, history)], motion, certify=certify)
-        table[: len(STOREY_RESULTS)], totals = by_storey[0], of_all[0]
+        by_storey, totals = by_frames(_frame(grid, history))
+        table[:FIRST_DEMAND] = by_storey[:FIRST_DEMAND]
+    return table, totals
+
+
+def _of_frame(
+    frame: Frame, motion: GroundMotion, certify: bool, free_steps: int, alone: bool
+) -> tuple[FloatArray, FloatArray]:
+    """Integrate one frame as if beside others, to the bit, or alone, with all rows of STOREY_RESULTS."""
+    if not alone:
+        from fdspec.engines.frames import peaks_of_frames
+
+        by_storey, totals = peaks_of_frames([frame], motion, certify=certify)
+        return by_storey[0], totals[0]
+    from fdspec.engines.many_storeys import peaks_of
+
+    return peaks_of(frame, motion, certify=certify, free_steps=free_steps)
+
+
+def _run_to_rest(
+    grid: BuildingGrid, certify: bool, history: int, motion: GroundMotion, free_steps: int
+) -> tuple[FloatArray, FloatArray]:
+    """Integrate one cell until no damper can slip any more, with the position in which it comes to rest."""
+    from fdspec.engines.many_storeys import peaks_of
+    from fdspec.engines.rest import rest_of_building
+    from fdspec.kernels.frame.results import RESULT, TOTAL
+
+    at_start = np.zeros((2, 2, grid.n_storeys))
+    rest = rest_of_building(_building(grid, history), motion, Span(free_steps, motion.dt, 1), at_start)
+    table, totals = peaks_of(
+        _frame(grid, history), motion, certify=certify, free_steps=free_steps + rest.steps
+    )
+    table[RESULT.residual_displacement] = rest.displacement
+    table[RESULT.residual_slip] = rest.slip
+    if rest.status != 0:
+        totals[TOTAL.status] = rest.status
     return table, totals
 
 
@@ -448,14 +545,14 @@ def _rows(grid: BuildingGrid) -> tuple[str, ...]:
     """Return the names of what each storey has of its own."""
     from fdspec.kernels.frame.results import STOREY_RESULTS
 
-    return (*STOREY_RESULTS, *_demands(grid))
+    return (*STOREY_RESULTS, *(_demands(grid) if _with_devices(grid) else ()))
 
 
 def _demands(grid: BuildingGrid) -> tuple[str, ...]:
-    """Return what only a cube with devices in it has of each storey."""
-    if not _with_devices(grid):
-        return ()
+    """Return what only a cube with devices in it, or of known heights, has of each storey."""
     known = all(not np.isnan(building.storey_height).any() for building in grid.buildings)
+    if not _with_devices(grid):
+        return ("peak_drift_ratio",) if known else ()
     return tuple(name for name in DEMANDS if known or name != "peak_drift_ratio")
 
 
@@ -483,6 +580,11 @@ def _variables(
     results |= dict(zip(TOTALS, totals.reshape(len(TOTALS), *levels), strict=True))
     results["peak_base_shear"] = results["peak_storey_shear"][..., 0]
     results["residual_drift"] = np.diff(results["residual_displacement"], prepend=0.0)
+    if "peak_drift_ratio" in wanted and "peak_drift_ratio" not in results:
+        n_b, n_k, n_s = grid.shape
+        height = np.stack([building.storey_height for building in grid.buildings])
+        drift = results["peak_drift"][:, :, :cells].reshape(n_r, n_i, n_b, n_k * n_s, grid.n_storeys)
+        results["peak_drift_ratio"] = (drift / height[:, np.newaxis]).reshape(n_r, n_i, cells, -1)
     acceleration = results["peak_acceleration"]
     limits = {
         "elastic_acceleration": acceleration[:, :, braced:bare],

@@ -62,8 +62,9 @@ def test_a_store_and_a_file_keep_them(tmp_path: Path) -> None:
 
 def test_an_elastic_sweep_says_nothing_of_devices() -> None:
     cube = fdspec.sweep(SHORT, **AXES, hardening_ratio=0.02, storey_height=3.0, yield_shear=math.inf)
-    plain = fdspec.sweep(SHORT, **AXES)
+    plain = fdspec.sweep(SHORT, **AXES, storey_height=3.0)
     assert "ductility" not in cube
+    np.testing.assert_array_equal(cube["peak_drift_ratio"], cube["peak_displacement"] / 3.0)
     assert cube.attrs["parameters"] == plain.attrs["parameters"]
     np.testing.assert_array_equal(cube["peak_acceleration"], plain["peak_acceleration"])
     with pytest.raises(InvalidInput, match="'ductility' is none of"):

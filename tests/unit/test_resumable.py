@@ -140,7 +140,7 @@ def test_what_is_damaged_is_computed_again(
 OTHERS: dict[str, tuple[dict[str, Any], str]] = {
     "an axis": ({"period": [0.05, 0.2, 0.5]}, r"period is \[0.05, 0.2, 0.5, 1.0\] in the store, \[0.05"),
     "a number": ({"floor_mass": 1e4}, "floor_mass is 20000.0 in the store, 10000.0 in the study"),
-    "outputs": ({"outputs": ["slip_travel"]}, "outputs is 13 values"),
+    "outputs": ({"outputs": ["slip_travel"]}, "outputs is 17 values"),
     "certify": ({"certify": False}, "certify is true in the store, false in the study"),
 }
 
@@ -246,5 +246,5 @@ def test_names_of_chunks_are_zarrs(motions: Motions, store: Path) -> None:
         for number, variable in itertools.product(range(len(blocks)), variables)
         if blocks.owns(number, variable)
     }
-    assert len(variables) == 13
+    assert len(variables) == 17
     assert mine == {path for v in variables for path in (store / v.name / "c").rglob("*") if path.is_file()}

@@ -13,7 +13,7 @@ import xarray as xr
 
 import fdspec
 from fdspec.errors import InvalidInput
-from fdspec.runs.sweep_buildings import OUTPUTS
+from fdspec.runs.sweep_buildings import ON_REQUEST, OUTPUTS
 
 AXES: dict[str, Any] = {"slip_scale": [0.0, 0.3, 1.0, np.inf], "stiffness_scale": [0.5, 1.0, 3.0]}
 COUNTED = ("status", "transitions", "storey_transitions")
@@ -165,9 +165,10 @@ def test_one_storey_is_the_single_storey_sweep() -> None:
         str(period): fdspec.Building.single_storey(period, 1.0, 10e3, kinetic_slip_force=8e3, **common)
         for period in periods
     }
-    many = fdspec.sweep_buildings(
-        motions(), frames, slip_scale=np.array(forces) / 10e3, stiffness_scale=ratios
-    )
+    axes = {"slip_scale": np.array(forces) / 10e3, "stiffness_scale": ratios}
+    many = fdspec.sweep_buildings(motions(), frames, **axes)
+    assert not set(ON_REQUEST) & set(many.data_vars)
+    many = many.assign(fdspec.sweep_buildings(motions(), frames, **axes, outputs=ON_REQUEST).data_vars)
     one = fdspec.sweep(
         motions(),
         period=periods,
@@ -272,7 +273,11 @@ LOW = fdspec.Building(20e3, 10e6, 50.0, 20e6, 30e3)
         (LOW, {"stiffness_scale": np.inf}, "stiffness_scale: values must be finite, got inf at index 0"),
         (LOW, {"workers": 0}, "workers must be at least 1, got 0"),
         (LOW, {"cells_per_task": 0}, "cells_per_task must be at least 1, got 0"),
-        (LOW, {"outputs": ["peak_acc"]}, f"outputs: 'peak_acc' is none of {', '.join(OUTPUTS)}"),
+        (
+            LOW,
+            {"outputs": ["peak_acc"]},
+            f"outputs: 'peak_acc' is none of {', '.join((*OUTPUTS, *ON_REQUEST))}",
+        ),
     ],
 )
 def test_mistakes_are_named(buildings: Any, change: dict[str, Any], said: str) -> None:

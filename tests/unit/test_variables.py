@@ -32,6 +32,10 @@ CONTRACT_OF_SWEEP = [
     "input_energy",
     "energy_error",
     "status",
+    "peak_slip",
+    "residual_slip",
+    "peak_brace_force",
+    "peak_column_shear",
 ]
 
 

@@ -12,9 +12,12 @@ import numpy as np
 
 from fdspec.compiler.options import inner
 from fdspec.kernels.batch.layout import (
+    CREST_B,
     CREST_Q,
     CREST_U,
     CREST_V,
+    FROM_D,
+    FROM_E,
     FROM_U,
     FROM_V,
     LIFT,
@@ -25,9 +28,11 @@ from fdspec.kernels.batch.layout import (
 from fdspec.kernels.friction import sliding_force
 from fdspec.kernels.mathematics.oscillator import series_order
 from fdspec.kernels.storey.bounds import floor_peaks
+from fdspec.kernels.storey.demands import step_brace_peak
 from fdspec.kernels.types import (
     OFFSET,
     PEAK_ACCELERATION,
+    PEAK_BRACE,
     PEAK_DISPLACEMENT,
     PEAK_SHEAR,
     PEAK_VELOCITY,
@@ -46,6 +51,11 @@ QUANTITIES = np.array([CREST_Q, CREST_U, CREST_V])
 BOUND, SLIPS, START_U, START_V, STOP_U, STOP_V, BASE, GROUND, RATE = range(9)
 N_CREST = 9
 """Numbers of a kept step: bound of its quantity, whether it slips, motion at both ends, forces."""
+
+
+HELD_OFFSET = 6
+"""Place of the slip offset in the kept step of the brace force, whose others are those of a crest."""
+N_BRACE = 9
 
 
 @inner
@@ -125,3 +135,46 @@ def settle_crests(p, lane, plan, crests, floor, search):
         crest = crests[lane, quantity]
         if crest[BOUND] > least_peak(p, quantity, lane, crest[SLIPS], plan.mass):
             settle(p, lane, plan, crest, floor, search)
+
+
+@inner
+def settle_brace(p, lane, plan, braces, room, search):
+    """Search the step kept for the brace force, if it still matters."""
+    kept = braces[lane]
+    if kept[BOUND] <= at(p, PEAK_BRACE, lane):
+        return
+    p[PEAK_BRACE * WIDTH + lane] = step_brace_peak(
+        plan,
+        int(kept[SLIPS]),
+        kept[START_U],
+        kept[START_V],
+        kept[START_U],
+        kept[START_V],
+        kept[HELD_OFFSET],
+        kept[GROUND],
+        kept[RATE],
+        room,
+        search,
+        at(p, PEAK_BRACE, lane),
+    )
+    kept[BOUND] = 0.0
+
+
+@inner
+def keep_brace(p, lane, plan, braces, ground, rate, room, search):
+    """Keep the quiet step that a lane has just taken, if the brace force may have its peak there."""
+    bound = at(p, CREST_B, lane)
+    if bound <= at(p, PEAK_BRACE, lane):
+        return
+    settle_brace(p, lane, plan, braces, room, search)
+    if bound <= at(p, PEAK_BRACE, lane):
+        return
+    phase = at(p, PHASE, lane)
+    kept = braces[lane]
+    kept[BOUND] = bound
+    kept[SLIPS] = phase
+    kept[START_U] = at(p, FROM_U, lane) if phase == STICK else at(p, FROM_D, lane)
+    kept[START_V] = at(p, FROM_V, lane) if phase == STICK else at(p, FROM_E, lane)
+    kept[HELD_OFFSET] = at(p, OFFSET, lane)
+    kept[GROUND] = ground
+    kept[RATE] = rate

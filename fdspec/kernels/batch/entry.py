@@ -12,11 +12,20 @@ import numpy as np
 from numba import types
 
 from fdspec.compiler.options import entry, float1d, float2d, ground1d, int1d
-from fdspec.kernels.batch.deferred_peaks import N_CREST, QUANTITIES, keep_crests, settle_crests
+from fdspec.kernels.batch.deferred_peaks import (
+    N_BRACE,
+    N_CREST,
+    QUANTITIES,
+    keep_brace,
+    keep_crests,
+    settle_brace,
+    settle_crests,
+)
 from fdspec.kernels.batch.layout import (
     HELD,
     N_ROWS,
     WIDTH,
+    is_brace_calm,
     is_calm,
     put_lane,
     put_state,
@@ -29,8 +38,8 @@ from fdspec.kernels.batch.uneventful import loss_lanes, slip_lanes, stick_lanes
 from fdspec.kernels.mathematics.oscillator import TERMS, step_map
 from fdspec.kernels.storey.constants import plan, steps_per_sample
 from fdspec.kernels.storey.energy import N_FORMS, put_losses
-from fdspec.kernels.storey.history import finish
-from fdspec.kernels.storey.step import walk
+from fdspec.kernels.storey.history import finish, settle_at_rest
+from fdspec.kernels.storey.step import come_to_rest, walk
 from fdspec.kernels.types import N_STATE, OK, PHASE, STATUS, STICK, Storey
 
 LINE: Final = 8
@@ -66,15 +75,18 @@ def prepare(storeys, dt, radians, certify, parts, shelf, forms, stride):
         types.float64,
         types.int64,
         types.boolean,
+        types.int64,
+        types.boolean,
         float2d,
         float1d,
     )
 )
-def run_lanes(shelf, forms, stride, ground, dt, parts, certify, results, held):
+def run_lanes(shelf, forms, stride, ground, dt, parts, certify, free_steps, at_rest, results, held):
     """Integrate up to WIDTH histories from rest.
 
     shelf, forms, stride: their rows from `prepare`; parts: the steps a sample that all of them take.
-    certify: whether the balance of all energies is wanted.
+    certify: whether the balance of all energies is wanted.  free_steps: steps of dt with the ground at rest
+    that follow; at_rest: whether each goes on from there until nothing can slip any more.
     Filled: results (count, len(RESULTS)); held (count,), the largest reaction (N) for which the bounds
     leave room while the storey never slips.
     """
@@ -86,6 +98,7 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, results, held):
     s, losses = np.zeros(N_STATE), np.zeros(N_FORMS)
     given_up = np.zeros((WIDTH, N_STATE))
     crests = np.zeros((WIDTH, len(QUANTITIES), N_CREST))
+    braces = np.zeros((WIDTH, N_BRACE))
     floor, brace, search = np.empty(TERMS), np.empty(TERMS), np.empty(TERMS)
     times, phases, traces = np.empty(0), np.empty(0, np.int64), np.empty((0, 0))
     slipping = 0
@@ -98,10 +111,14 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, results, held):
         elif p[PHASE * WIDTH + lane] != STICK:
             slipping += 1
     step = dt / parts
-    for i in range(ground.size - 1):
-        rate = (ground[i + 1] - ground[i]) / dt
+    for i in range(ground.size - 1 + free_steps):
+        a0 = 0.0
+        rate = 0.0
+        if i < ground.size - 1:
+            a0 = ground[i]
+            rate = (ground[i + 1] - a0) / dt
         for j in range(parts):
-            start = ground[i] + rate * (j * step)
+            start = a0 + rate * (j * step)
             to_walk = 0
             to_keep = 0
             if slipping < WIDTH:
@@ -117,6 +134,7 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, results, held):
             for lane in range(count):
                 if to_keep >> lane & 1:
                     keep_crests(p, lane, take_plan(shelf, lane), crests, start, rate, floor, search)
+                    keep_brace(p, lane, take_plan(shelf, lane), braces, start, rate, floor, search)
                 elif to_walk >> lane & 1:
                     take_state(p, lane, s)
                     if certify:
@@ -132,6 +150,7 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, results, held):
                         rate,
                         certify,
                         is_calm(p, lane, s),
+                        is_brace_calm(p, lane, s),
                         floor,
                         brace,
                         search,
@@ -152,9 +171,18 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, results, held):
                     slipping += (1 if after else 0) - (1 if before else 0)
     for lane in range(count):
         settle_crests(p, lane, take_plan(shelf, lane), crests, floor, search)
+        settle_brace(p, lane, take_plan(shelf, lane), braces, floor, search)
         take_state(p, lane, s)
         if given_up[lane, STATUS] != OK:
             for row in range(N_STATE):
                 s[row] = given_up[lane, row]
+        if at_rest and s[STATUS] == OK:
+            for k in range(N_FORMS):
+                losses[k] = forms[lane, k]
+            come_to_rest(
+                take_plan(shelf, lane), losses, s, parts, certify, floor, brace, search, times, phases, traces
+            )
         finish(take_plan(shelf, lane).storey, s, certify, results[lane])
+        if at_rest and s[STATUS] == OK:
+            settle_at_rest(take_plan(shelf, lane).storey, s, results[lane])
         held[lane] = p[HELD * WIDTH + lane]

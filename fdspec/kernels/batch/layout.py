@@ -21,6 +21,7 @@ from fdspec.kernels.types import (
     NO_KICK,
     OFFSET,
     PEAK_ACCELERATION,
+    PEAK_BRACE,
     PEAK_DISPLACEMENT,
     PEAK_SHEAR,
     PEAK_VELOCITY,
@@ -37,8 +38,8 @@ WIDTH = 16
 
 # Rows behind the state: the motion at the step's start, bounds on peaks in it, the largest reaction so far.
 _AT = N_STATE
-FROM_U, FROM_V, CREST_U, CREST_V, CREST_Q, CREST_S, HELD = range(_AT, _AT + 7)
-_AT += 7
+FROM_U, FROM_V, FROM_D, FROM_E, CREST_U, CREST_V, CREST_Q, CREST_S, CREST_B, HELD = range(_AT, _AT + 10)
+_AT += 10
 # Constants of the storey.
 LIMIT, PUSH_FLOOR, PUSH_BRACE, LIFT, MASS, FLOOR_MASS, BRACE_MASS, LIGHT, MUST_WALK = range(_AT, _AT + 9)
 _AT += 9
@@ -146,6 +147,7 @@ def rest_lane(p, lane):
     start_lane(p, lane)
     for row in range(PEAK_ACCELERATION, PEAK_SHEAR + 1):
         p[row * WIDTH + lane] = math.inf
+    p[PEAK_BRACE * WIDTH + lane] = math.inf
 
 
 @inner
@@ -174,3 +176,9 @@ def is_calm(p, lane, s):
         and at(p, CREST_V, lane) <= s[PEAK_VELOCITY]
         and at(p, CREST_S, lane) <= s[PEAK_SHEAR]
     )
+
+
+@inlined
+def is_brace_calm(p, lane, s):
+    """Whether a step passes no peak of the brace force in the state ``s``, unless the phase changes on it."""
+    return at(p, CREST_B, lane) <= s[PEAK_BRACE]

@@ -26,6 +26,7 @@ from fdspec.kernels.batch.layout import (
     B_TAIL_Q,
     B_W2,
     BRACE_MASS,
+    CREST_B,
     CREST_Q,
     CREST_S,
     CREST_U,
@@ -41,6 +42,8 @@ from fdspec.kernels.batch.layout import (
     F_TAIL_V,
     F_W2,
     FLOOR_MASS,
+    FROM_D,
+    FROM_E,
     FROM_U,
     FROM_V,
     HELD,
@@ -76,6 +79,7 @@ from fdspec.kernels.types import (
     KICK,
     OFFSET,
     PEAK_ACCELERATION,
+    PEAK_BRACE,
     PEAK_DISPLACEMENT,
     PEAK_SHEAR,
     PEAK_VELOCITY,
@@ -161,9 +165,19 @@ def stick_lanes(p, h, ground, rate):
         fall0, fall1 = fma(g, a0, w2 * v), fma(g, a1, w2 * v1)
         crest_q = max(abs(fma(-third, fall0, q0)), abs(fma(third, fall1, q1)))
         crest_q = fma(swing, at(p, S_TAIL_Q, lane), crest_q)
+        # The brace carries the reaction less the inertia of its own mass.
+        m_b = at(p, BRACE_MASS, lane)
+        f1 = fma(-m_b, q1, r1)
+        crest_b = max(
+            abs(fma(m_b, fma(third, fall0, -q0), r0 + rise0)),
+            abs(fma(-m_b, fma(third, fall1, q1), r1 - rise1)),
+        )
+        crest_b = fma(swing, fma(m_b, at(p, S_TAIL_Q, lane), at(p, HOLD_TAIL, lane)), crest_b)
+        top_b = max(at(p, PEAK_BRACE, lane), abs(f1))
         sticks = at(p, PHASE, lane) == 0.0
         alert = (held >= at(p, LIMIT, lane)) | (at(p, TOUCHING, lane) != 0.0)
         peak = (crest_q > min(top_a, top_s * at(p, LIGHT, lane))) | (crest_u > top_u) | (crest_v > top_v)
+        peak |= crest_b > top_b
         moves = sticks & (not alert)
         to_walk |= (1 << lane) if sticks & alert else 0
         to_keep |= (1 << lane) if moves & peak else 0
@@ -176,6 +190,8 @@ def stick_lanes(p, h, ground, rate):
         p[PEAK_DISPLACEMENT * WIDTH + lane] = top_u if moves else at(p, PEAK_DISPLACEMENT, lane)
         p[PEAK_VELOCITY * WIDTH + lane] = top_v if moves else at(p, PEAK_VELOCITY, lane)
         p[PEAK_SHEAR * WIDTH + lane] = top_s if moves else at(p, PEAK_SHEAR, lane)
+        p[PEAK_BRACE * WIDTH + lane] = top_b if moves else at(p, PEAK_BRACE, lane)
+        p[CREST_B * WIDTH + lane] = crest_b
         p[INPUT * WIDTH + lane] -= at(p, MASS, lane) * moved if moves else 0.0
         p[CREST_U * WIDTH + lane] = crest_u
         p[CREST_V * WIDTH + lane] = crest_v
@@ -259,10 +275,21 @@ def slip_lanes(p, h, ground, rate):
         crest_s = fma(m, max(max(abs(q0), abs(q1)), crest_q), crest_s)
         crest_s = min(crest_s, max(max(abs(s0), abs(s1)), inside))
         shear = max(at(p, PEAK_SHEAR, lane), abs(s1))
+        # The brace carries friction less its inertia: that of its quasi-static motion, and of its ringing.
+        f0 = fma(g_b, e, w2_b * d)
+        f1 = fma(g_b, e1, w2_b * d1)
+        inside = max(
+            abs(fma(third, fma(w2_b, e, g_b * c0), f0)), abs(fma(-third, fma(w2_b, e1, g_b * c1), f1))
+        )
+        inside = fma(ring, at(p, B_TAIL_Q, lane), inside)
+        crest_b = fma(ring, at(p, B_OMEGA, lane), max(abs(b0), abs(fma(-b1, h, b0))))
+        crest_b = m_b * min(crest_b, max(max(abs(f0), abs(f1)), inside))
+        top_b = max(at(p, PEAK_BRACE, lane), m_b * abs(f1))
         slips = sign != 0.0
         alert = (at(p, MUST_WALK, lane) != 0.0) | (at(p, KICK, lane) >= 0.0)
         alert |= (slowest <= 0.0) | (crest_s > shear)
         peak = (crest_q > top_a) | (crest_u > top_u) | (crest_v > top_v)
+        peak |= crest_b > top_b
         moves = slips & (not alert)
         to_walk |= (1 << lane) if slips & alert else 0
         to_keep |= (1 << lane) if moves & peak else 0
@@ -279,6 +306,10 @@ def slip_lanes(p, h, ground, rate):
         p[PEAK_DISPLACEMENT * WIDTH + lane] = top_u if moves else at(p, PEAK_DISPLACEMENT, lane)
         p[PEAK_VELOCITY * WIDTH + lane] = top_v if moves else at(p, PEAK_VELOCITY, lane)
         p[PEAK_SHEAR * WIDTH + lane] = shear if moves else at(p, PEAK_SHEAR, lane)
+        p[PEAK_BRACE * WIDTH + lane] = top_b if moves else at(p, PEAK_BRACE, lane)
+        p[FROM_D * WIDTH + lane] = d if slips else at(p, FROM_D, lane)
+        p[FROM_E * WIDTH + lane] = e if slips else at(p, FROM_E, lane)
+        p[CREST_B * WIDTH + lane] = crest_b if slips else at(p, CREST_B, lane)
         p[INPUT * WIDTH + lane] -= work if moves else 0.0
         p[CREST_U * WIDTH + lane] = crest_u if slips else at(p, CREST_U, lane)
         p[CREST_V * WIDTH + lane] = crest_v if slips else at(p, CREST_V, lane)

@@ -46,6 +46,10 @@ STOREY_RESULTS = (
     "peak_drift",
     "peak_storey_shear",
     "residual_displacement",
+    "peak_slip",
+    "residual_slip",
+    "peak_brace_force",
+    "peak_column_shear",
 )
 RESULT = positions(STOREY_RESULTS)
 TOTALS = ("transitions", "dissipated_energy", "energy_error", "status", "evaluations")
@@ -194,10 +198,13 @@ def storey_shear(storeys, x, ground, i):
 
 
 @inlined
-def raise_peaks(storeys, x, ground, results):
+def raise_peaks(storeys, stiffness, x, ground, results):
     """Raise the peaks to this state's."""
     shear = 0.0
+    columns = 0.0
     for i in range(x.shape[1] - 1, -1, -1):
+        for j in range(x.shape[1]):
+            columns += stiffness[i, j] * x[U, j]
         absolute = x[A, i] + ground
         shear -= storeys[FLOOR_MASS, i] * absolute + storeys[BRACE_MASS, i] * (x[B, i] + ground)
         drift = x[U, i] - (x[U, i - 1] if i > 0 else 0.0)
@@ -206,6 +213,11 @@ def raise_peaks(storeys, x, ground, results):
         results[RESULT.peak_velocity, i] = max(results[RESULT.peak_velocity, i], abs(x[V, i]))
         results[RESULT.peak_drift, i] = max(results[RESULT.peak_drift, i], abs(drift))
         results[RESULT.peak_storey_shear, i] = max(results[RESULT.peak_storey_shear, i], abs(shear))
+        if storeys[BRACE_STIFFNESS, i] > 0.0:
+            slip, force = x[U, i] - x[D, i], brace_force(storeys, x, i)
+            results[RESULT.peak_slip, i] = max(results[RESULT.peak_slip, i], abs(slip))
+            results[RESULT.peak_brace_force, i] = max(results[RESULT.peak_brace_force, i], abs(force))
+        results[RESULT.peak_column_shear, i] = max(results[RESULT.peak_column_shear, i], abs(columns))
 
 
 @inlined
@@ -321,7 +333,7 @@ def integrate(
                 times[changes], changed[changes], phases[changes] = 0.0, i, phase[i]
             changes += 1
     balance(storeys, stiffness, damping, phase, x, ground[0, 0])
-    raise_peaks(storeys, x, ground[0, 0], results)
+    raise_peaks(storeys, stiffness, x, ground[0, 0], results)
     given, lost = powers(storeys, damping, x, ground[0, 0])
     at_start = stored(storeys, stiffness, x)
     told = 0
@@ -336,7 +348,7 @@ def integrate(
         first, last = ground[interval, 0], ground[interval, 1]
         if interval > 0 and first != ground[interval - 1, 1]:
             balance(storeys, stiffness, damping, phase, x, first)
-            raise_peaks(storeys, x, first, results)
+            raise_peaks(storeys, stiffness, x, first, results)
             given, lost = powers(storeys, damping, x, first)
         for part in range(parts):
             begin = first + (last - first) * (part / parts)
@@ -371,7 +383,7 @@ def integrate(
                 energies[told, ENERGY.viscous_energy] = lost_before + share * (work[1] - lost_before)
                 told += 1
             x, new = new, x
-            raise_peaks(storeys, x, end, results)
+            raise_peaks(storeys, stiffness, x, end, results)
             differs = False
             for i in range(n):
                 after = next_phase(storeys, stiffness, damping, phase, x, i)
@@ -387,13 +399,14 @@ def integrate(
                 for i in range(n):
                     phase[i] = int(new[R, i])
                 balance(storeys, stiffness, damping, phase, x, end)
-                raise_peaks(storeys, x, end, results)
+                raise_peaks(storeys, stiffness, x, end, results)
                 given, lost = powers(storeys, damping, x, end)
         if status != OK:
             break
     friction = 0.0
     for i in range(n):
         results[RESULT.residual_displacement, i] = x[U, i]
+        results[RESULT.residual_slip, i] = x[U, i] - x[D, i] if storeys[BRACE_STIFFNESS, i] > 0.0 else 0.0
         friction += slipped[1, i]
     missing = work[0] + at_start - stored(storeys, stiffness, x) - work[1] - friction
     scale = abs(work[0]) + at_start

@@ -22,6 +22,7 @@ def fill_storeys(frame, phase, state, tally, by_storey):
         friction += work
         by_storey[RESULT.residual_displacement, i] = state[DISPLACEMENT, i]
         by_storey[RESULT.residual_brace_displacement, i] = state[DISPLACEMENT, i] - state[OFFSET, i]
+        by_storey[RESULT.residual_slip, i] = state[OFFSET, i]
         by_storey[RESULT.slip_travel, i] = travel
         by_storey[RESULT.storey_friction_energy, i] = work
     return friction

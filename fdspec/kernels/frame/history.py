@@ -15,6 +15,12 @@ import numpy as np
 from numba import types
 
 from fdspec.compiler.options import entry, float1d, float2d, float3d, inner, int1d
+from fdspec.kernels.frame.demands import (
+    finish_demands,
+    has_only_columns,
+    raise_column_shears,
+    raise_demands,
+)
 from fdspec.kernels.frame.energy import (
     input_work,
     stored_energy,
@@ -46,7 +52,7 @@ from fdspec.kernels.frame.reset import (
     returns_at_once,
     stay_sprung,
 )
-from fdspec.kernels.frame.results import COUNTS, END, END_ROWS, NO_TIME
+from fdspec.kernels.frame.results import COUNTS, DEMAND_ROWS, DEMANDS, END, END_ROWS, NO_TIME
 from fdspec.kernels.frame.step import change_phases, look_ahead
 from fdspec.kernels.frame.taylor import (
     DISPLACEMENT,
@@ -111,6 +117,7 @@ def history(
     energies,
     peaks,
     counts,
+    demands,
     by_storey,
     totals,
 ):
@@ -121,6 +128,7 @@ def history(
     size = frame.shape[1]
     damped = is_damped(frame)
     grounded = is_grounded(frame)
+    only_columns = has_only_columns(frame, dense_stiffness)
     held = held_rates(frame, dense_stiffness, dense_damping)
     held_rate = rate_of(held[0], held[1])
     prepare(frame, model, held)
@@ -276,6 +284,9 @@ def history(
                     viscous += viscous_work(frame, dense_damping, damped, series, n, h, done, speeds)
                 end_of_step(series, n, done, state)
                 raise_peaks(frame, model, series, reach, state, n, h, done, acceleration, rise, c, peaks)
+                raise_demands(model, series, reach, state, n, h, done, acceleration, rise, c, demands)
+                if not only_columns:
+                    raise_column_shears(dense_stiffness, model, series, n, done, c, demands)
                 for i in range(size):
                     fresh[i] = 0
                     touching[i] = 0
@@ -320,6 +331,7 @@ def history(
             break
 
     friction = fill_storeys(frame, phase, state, tally, by_storey)
+    finish_demands(frame, only_columns, peaks, demands)
     for i in range(size):
         for k in range(4):
             by_storey[END + k, i] = state[k, i]
@@ -451,6 +463,7 @@ def integrate(
         energies,
         by_storey[:PEAK_ROWS],
         by_storey[COUNTS],
+        by_storey[DEMANDS : DEMANDS + DEMAND_ROWS],
         by_storey,
         totals,
     )

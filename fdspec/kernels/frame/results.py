@@ -19,9 +19,17 @@ STOREY_RESULTS = (
     "slip_travel",
     "storey_transitions",
     "storey_friction_energy",
+    "residual_slip",
+    "peak_slip",
+    "peak_brace_force",
+    "peak_column_shear",
 )
-"""First rows of ``by_storey`` (18, N); the first six of them are the peaks."""
+"""First rows of ``by_storey`` (22, N); the first six of them are the peaks, the last three the demands."""
 RESULT = positions(STOREY_RESULTS)
+
+DEMANDS = RESULT.peak_slip
+DEMAND_ROWS = 3
+"""First row and number of the peaks that histories side by side leave out."""
 
 END = len(STOREY_RESULTS)
 END_ROWS = 7

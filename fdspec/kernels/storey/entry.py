@@ -14,11 +14,12 @@ from fdspec.kernels.types import Motion, Storey
 
 
 @entry(
-    types.void(
+    types.int64(
         record_of(Storey),
         ground1d,
         types.float64,
         types.int64,
+        types.boolean,
         types.float64,
         record_of(Motion),
         types.boolean,
@@ -31,7 +32,7 @@ from fdspec.kernels.types import Motion, Storey
     )
 )
 def integrate(
-    storey, ground, dt, free_steps, radians, start, resumes, s, times, phases, dt_out, traces, result
+    storey, ground, dt, free_steps, at_rest, radians, start, resumes, s, times, phases, dt_out, traces, result
 ):
     """Integrate one history; arguments as in :func:`fdspec.kernels.storey.history.history`.
 
@@ -42,13 +43,14 @@ def integrate(
     forms = np.empty(N_FORMS)
     put_losses(scheme, forms)
     floor, brace, search = np.empty(TERMS), np.empty(TERMS), np.empty(TERMS)
-    history(
+    return history(
         scheme,
         forms,
         ground,
         dt,
         parts,
         free_steps,
+        at_rest,
         start,
         resumes,
         s,

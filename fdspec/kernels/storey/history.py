@@ -13,17 +13,21 @@ from fdspec.compiler.options import inner
 from fdspec.compiler.positions import positions
 from fdspec.kernels.friction import friction_work, reaction
 from fdspec.kernels.storey.energy import stored_energy
-from fdspec.kernels.storey.step import begin, resume, walk
+from fdspec.kernels.storey.rest import rest_displacement
+from fdspec.kernels.storey.step import begin, come_to_rest, resume, walk
 from fdspec.kernels.types import (
     ANCHOR,
     ENERGY_NOT_CLOSED,
     ENERGY_TOLERANCE,
     INPUT,
     NON_FINITE_STATE,
+    OFFSET,
     OK,
     PEAK_ACCELERATION,
+    PEAK_BRACE,
     PEAK_DISPLACEMENT,
     PEAK_SHEAR,
+    PEAK_SLIP,
     PEAK_VELOCITY,
     PHASE,
     RELEASE,
@@ -52,6 +56,10 @@ RESULTS = (
     "input_energy",
     "energy_error",
     "status",
+    "peak_slip",
+    "residual_slip",
+    "peak_brace_force",
+    "peak_column_shear",
 )
 """What a history leaves behind, in the order of its result row."""
 RESULT = positions(RESULTS)
@@ -97,6 +105,11 @@ def finish(storey, s, certify, result):
     result[RESULT.input_energy] = s[INPUT]
     result[RESULT.energy_error] = error
     result[RESULT.status] = s[STATUS]
+    slip = s[OFFSET] if s[PHASE] == STICK else motion.u - motion.d
+    result[RESULT.peak_slip] = max(s[PEAK_SLIP], abs(slip))
+    result[RESULT.residual_slip] = slip
+    result[RESULT.peak_brace_force] = s[PEAK_BRACE]
+    result[RESULT.peak_column_shear] = storey.floor_stiffness * s[PEAK_DISPLACEMENT]
     size = 0.0
     for k in range(RESULT.status):
         size += abs(result[k])
@@ -108,6 +121,14 @@ def finish(storey, s, certify, result):
 
 
 @inner
+def settle_at_rest(storey, s, result):
+    """Put the position of rest in the place of that at the end."""
+    slip = 0.0 if storey.slip_force == 0.0 else s[OFFSET]
+    result[RESULT.residual_displacement] = rest_displacement(storey, slip)
+    result[RESULT.residual_slip] = slip
+
+
+@inner
 def history(
     plan,
     forms,
@@ -115,6 +136,7 @@ def history(
     dt,
     parts,
     free_steps,
+    at_rest,
     start,
     resumes,
     s,
@@ -130,10 +152,11 @@ def history(
     """Integrate one history, with its energies, and fill ``result`` (see RESULTS).
 
     ground: acceleration at the samples, m/s2, (n,); parts: steps of the plan in each dt;
-    free_steps: record steps with the ground at rest that follow.  start: Motion at t = 0, the brace
-    locked where it stands, unless its velocity differs; resumes: whether ``s`` is given in its place, the
-    state in which another history ended.  times, phases: changes of phase as far as
-    they have room.  traces (m, len(TRACES)): filled at k dt_out for k < m.
+    free_steps: record steps with the ground at rest that follow; at_rest: whether it goes on from there until
+    nothing can slip any more, without room for traces.  Returns the record steps that this took.
+    start: Motion at t = 0, the brace locked where it stands, unless its velocity differs; resumes: whether
+    ``s`` is given in its place, the state in which another history ended.  times, phases: changes of phase as
+    far as they have room.  traces (m, len(TRACES)): filled at k dt_out for k < m.
     """
     if resumes:
         resume(plan, s)
@@ -167,6 +190,7 @@ def history(
             rate,
             True,
             False,
+            False,
             floor,
             brace,
             search,
@@ -179,4 +203,12 @@ def history(
         )
         if s[STATUS] != OK:
             break
+    taken = (
+        come_to_rest(plan, forms, s, parts, True, floor, brace, search, times, phases, traces)
+        if at_rest
+        else 0
+    )
     finish(plan.storey, s, True, result)
+    if at_rest and s[STATUS] == OK:
+        settle_at_rest(plan.storey, s, result)
+    return taken

@@ -17,12 +17,14 @@ from fdspec.kernels.mathematics.oscillator import expand
 from fdspec.kernels.mathematics.polynomial_roots import value_slope
 from fdspec.kernels.mathematics.zero_crossing import CROSSES, UNCLEAR
 from fdspec.kernels.storey.bounds import forcing, ground_at
+from fdspec.kernels.storey.demands import brace_force, slip_brace_peak, stick_brace_peak
 from fdspec.kernels.storey.energy import (
     input_work,
     series_work,
     stored_energy,
 )
 from fdspec.kernels.storey.output import floor_acceleration, write_trace
+from fdspec.kernels.storey.rest import REST_STEPS, is_at_rest
 from fdspec.kernels.storey.segment import at_once, part_loss, whole_loss
 from fdspec.kernels.storey.slip import (
     base_shear,
@@ -41,9 +43,12 @@ from fdspec.kernels.types import (
     NO_KICK,
     NON_FINITE_STATE,
     OFFSET,
+    OK,
     PEAK_ACCELERATION,
+    PEAK_BRACE,
     PEAK_DISPLACEMENT,
     PEAK_SHEAR,
+    PEAK_SLIP,
     PEAK_VELOCITY,
     PHASE,
     RELEASE,
@@ -154,6 +159,8 @@ def begin(plan, start, s):
     s[PEAK_DISPLACEMENT] = peaks.displacement
     s[PEAK_VELOCITY] = peaks.velocity
     s[PEAK_SHEAR] = peaks.shear
+    s[PEAK_SLIP] = abs(motion.u - motion.d)
+    s[PEAK_BRACE] = abs(brace_force(storey, motion))
 
 
 @inner
@@ -169,6 +176,8 @@ def resume(plan, s):
     s[PEAK_DISPLACEMENT] = peaks.displacement
     s[PEAK_VELOCITY] = peaks.velocity
     s[PEAK_SHEAR] = peaks.shear
+    s[PEAK_SLIP] = abs(motion.u - motion.d)
+    s[PEAK_BRACE] = abs(brace_force(plan.storey, motion))
 
 
 @inner
@@ -181,6 +190,7 @@ def walk(
     rate,
     certify,
     calm,
+    brace_calm,
     floor,
     brace,
     search,
@@ -195,8 +205,9 @@ def walk(
 
     forms: the losses of the plan, (N_FORMS,), read where certify.  at: time of the step's start, s;
     a0, rate: ground acceleration there (m/s2) and its rate (m/s3).  certify: whether the work of the viscous
-    dampers is kept.  calm: whether it is known that no peak is passed
-    before the phase changes.  floor, brace, search: room for series, (TERMS,).  times, phases: changes of
+    dampers is kept.  calm: whether it is known that no peak of the floor or of base shear
+    is passed before the phase changes; brace_calm: the same of the brace force.
+    floor, brace, search: room for series, (TERMS,).  times, phases: changes of
     phase, as far as they have room.  traces (m, len(TRACES)): row k is
     written at k dt_out once that is not later than ``reach`` past what has been walked; with m = 0
     nothing is written, else every piece is expanded.
@@ -213,6 +224,7 @@ def walk(
     kick = s[KICK]
     touching = int(s[TOUCHING])
     peaks = Peaks(s[PEAK_ACCELERATION], s[PEAK_DISPLACEMENT], s[PEAK_VELOCITY], s[PEAK_SHEAR])
+    strongest = s[PEAK_BRACE]
     tau = 0.0
     part = 0  # index of the piece within the step, on the grid of the phase
     whole = True  # whether the piece begins on that grid
@@ -294,6 +306,15 @@ def walk(
 
         if h > 0.0:
             calm = calm and not happens
+            brace_calm = brace_calm and not happens
+            if phase == STICK and not brace_calm:  # before the others, which shorten the series
+                strongest = stick_brace_peak(
+                    plan, floor, search, order, share, motion, end, force, offset, h, strongest
+                )
+            elif not brace_calm:
+                strongest = slip_brace_peak(
+                    plan, brace, search, order, share, motion, end, force, h, strongest
+                )
             if phase == STICK and not calm:
                 peaks = stick_peaks(plan, floor, search, order, share, motion, end, force, offset, h, peaks)
             elif not calm:
@@ -355,6 +376,7 @@ def walk(
                 phases[k] = phase
             s[TRANSITIONS] = k + 1.0
         peaks = with_instant(plan, phase, offset, motion, peaks)
+        s[PEAK_SLIP] = max(s[PEAK_SLIP], abs(motion.u - motion.d))
         pieces = 1 if phase == STICK else int(plan.slip_steps)
         part = 0 if phase == STICK else min(int(tau / plan.slip_step), pieces - 1)
         if part + 1 < pieces and (part + 1) * plan.slip_step <= tau:
@@ -364,6 +386,8 @@ def walk(
     if calm:
         # Bounds on what lies inside a step leave out its end, which the next step's would tell of.
         peaks = with_instant(plan, phase, offset, motion, peaks)
+    if brace_calm:
+        strongest = max(strongest, abs(brace_force(storey, motion)))
     if not abs(motion.u) + abs(motion.v) + abs(motion.d) + abs(motion.e) < math.inf:
         s[STATUS] = NON_FINITE_STATE
     s[U] = motion.u
@@ -378,4 +402,43 @@ def walk(
     s[PEAK_DISPLACEMENT] = peaks.displacement
     s[PEAK_VELOCITY] = peaks.velocity
     s[PEAK_SHEAR] = peaks.shear
+    s[PEAK_BRACE] = strongest
     return written
+
+
+@inner
+def come_to_rest(plan, forms, s, parts, certify, floor, brace, search, times, phases, traces):
+    """Go on with the ground at rest until nothing can slip any more; return the record steps taken.
+
+    parts: steps of the plan in each of them.  times, phases, traces: as for `walk`, and without room.
+    """
+    taken = 0
+    while s[STATUS] == OK and not is_at_rest(plan, s):
+        if taken == REST_STEPS:
+            s[STATUS] = TRANSITION_CAP_REACHED
+            break
+        for _ in range(parts):
+            walk(
+                plan,
+                forms,
+                s,
+                0.0,
+                0.0,
+                0.0,
+                certify,
+                False,
+                False,
+                floor,
+                brace,
+                search,
+                times,
+                phases,
+                traces,
+                0.0,
+                0,
+                0.0,
+            )
+            if s[STATUS] != OK:
+                break
+        taken += 1
+    return taken

@@ -223,6 +223,7 @@ def strain_of_history(
                 rate,
                 False,
                 True,
+                True,
                 floor,
                 brace,
                 out,
