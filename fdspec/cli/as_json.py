@@ -8,7 +8,6 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 import click
-import numpy as np
 
 from fdspec.cli.echo import echo
 
@@ -36,7 +35,7 @@ def echo_json(value: object) -> None:
 
 def plain(value: Any) -> Any:
     """Return what JSON can hold; an infinite number is the text "inf", as in a cube's parameters."""
-    if isinstance(value, np.ndarray | np.generic):
+    if hasattr(value, "tolist"):  # an array or a number of numpy, which help does without
         value = value.tolist()
     if isinstance(value, float):
         if math.isnan(value):

@@ -34,6 +34,19 @@ FRAME: Final = (
 """Parameters of the options that tell a single-storey frame."""
 
 
+OF_ALL_STOREYS: Final = (
+    "peak_acceleration",
+    "peak_displacement",
+    "peak_velocity",
+    "peak_slip",
+    "peak_brace_force",
+    "ductility",
+    "plastic_drift",
+    "column_energy",
+)
+"""Of which the largest over the storeys is told."""
+
+
 @click.command()
 @click.option("--record", required=True, metavar="NAME|FILE", help="A record of the catalogue, or a file.")
 @file_options
@@ -217,7 +230,7 @@ def _results(history: xr.Dataset) -> str:
     """Return the peaks, a line each."""
     from fdspec.units import G
 
-    one = history[["peak_acceleration", "peak_displacement", "peak_velocity"]].max("storey")
+    one = abs(history[[name for name in OF_ALL_STOREYS if name in history]]).max("storey")
     last = history["residual_displacement"]
     last = last.isel(storey=int(np.argmax(np.abs(last.values))))
     lines = {
@@ -230,11 +243,14 @@ def _results(history: xr.Dataset) -> str:
         "changes of phase": f"{history['transitions'].item()}",
         "energy of friction": f"{history['dissipated_energy'].item() / 1e3:.4g} kJ",
         "energy put in": f"{history['input_energy'].values[-1] / 1e3:.4g} kJ",
-        "error of energy": f"{history['energy_error'].item():.1e} of the energy put in",
+        "error of energy": f"{history['energy_error'].item():.1e} of the energy in play",
     }
+    if "peak_slip" in one:
+        lines["largest slip"] = f"{one['peak_slip'].item() * 1e3:.4g} mm"
+    if "peak_brace_force" in one:
+        lines["largest brace force"] = f"{one['peak_brace_force'].item() / 1e3:.4g} kN"
     if "ductility" in one:
         lines |= {
-            "largest slip": f"{one['peak_slip'].item() * 1e3:.4g} mm",
             "ductility": f"{one['ductility'].item():.4g}",
             "plastic drift": f"{one['plastic_drift'].item() * 1e3:.4g} mm",
             "energy of columns": f"{one['column_energy'].item() / 1e3:.4g} kJ",

@@ -109,6 +109,8 @@ def _guarded(what: str, look: Callable[P, Finding], *given: P.args, **named: P.k
 def _registry(cube: xr.Dataset) -> Registry | None:
     """Return what the dataset should hold; None where it is no cube and no history."""
     dims = set(cube.dims)
+    if "statistic" in dims:
+        return None
     if "building" in dims and "slip_scale" in dims:
         return INTENSITY_BUILDING_CUBE if INTENSITY in dims else BUILDING_CUBE
     if len(dims & set(STUDY_DIMS)) == len(STUDY_DIMS):

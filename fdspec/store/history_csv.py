@@ -26,7 +26,7 @@ def transitions_file(path: Path) -> Path:
 def write_history(history: xr.Dataset, part: Path, path: Path, heading: list[str]) -> None:
     """Write the course in time to `part`; the changes of phase to the file beside `path`, as a whole.
 
-    What each storey has of its own is a column for each storey, ``drift_1``, ``drift_2`` and so on where
+    What each storey or link has of its own is a column for each, ``drift_1``, ``drift_2`` and so on where
     there are several; what has one value, or one for each storey, stands in the heading.
     """
     names = [str(name) for name, array in history.variables.items() if array.dims[:1] == ("time",)]
@@ -36,9 +36,11 @@ def write_history(history: xr.Dataset, part: Path, path: Path, heading: list[str
         if array.ndim == 1:
             columns[name] = array.values
         else:
-            several = array.sizes["storey"] > 1
-            for k, storey in enumerate(history["storey"].values.tolist()):
-                columns[f"{name}_{storey}" if several else name] = array.values[:, k]
+            dim = str(array.dims[1])
+            many = array.sizes[dim]
+            labels = history[dim].values.tolist() if dim in history.coords else range(1, many + 1)
+            for k, label in enumerate(labels):
+                columns[f"{name}_{label}" if many > 1 else name] = array.values[:, k]
     about = [*heading, *_told(history, names), *_fixed(history)]
     _write(part, about, columns)
     changes = {

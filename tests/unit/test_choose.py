@@ -402,7 +402,7 @@ def test_the_command_writes_page_and_numbers(tmp_path: Path, capsys: pytest.Capt
         (["--index", "drift"], "'drift' is none of"),
         (["--index", "rpi=much"], "the weight in 'rpi=much' is no number"),
         (["--lower", "2"], "lower and upper must be positive"),
-        (["--building", "none.toml"], "cannot read the building none.toml"),
+        (["--building", "none.toml"], "none.toml: cannot be read (No such file"),
         (["--building", "none.toml", "--period", "1"], "--period is of the single-storey frame"),
         (["--html", "page.txt"], ".html"),
         (["--project", "Harbour Street"], "--title, --project and --author are of the page"),

@@ -66,8 +66,10 @@ def test_a_history_has_the_exact_engines_schema(name: str) -> None:
     building, motion = two_storeys(), noise()
     exact = fdspec.simulate(building, motion, free_vibration=0.5, dt_out=0.03)
     other = fdspec.simulate(building, motion, method=QUICK[name], free_vibration=0.5, dt_out=0.03)
-    assert set(other.variables) == set(exact.variables)
-    for key in exact.variables:
+    # From the exact engine alone another history can go on.
+    shared = set(exact.variables) - {"end_state"}
+    assert set(other.variables) == shared
+    for key in shared:
         assert other[key].dims == exact[key].dims, key
         assert other[key].dtype == exact[key].dtype, key
         assert other[key].attrs == exact[key].attrs, key

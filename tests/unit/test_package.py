@@ -50,7 +50,8 @@ def test_function_wins_over_module_of_the_same_name(name: str, first: str) -> No
 
 def promised() -> list[str]:
     """Every name that the page of the Python interface documents."""
-    text = (Path(__file__).parents[2] / "docs/api.md").read_text(encoding="utf-8")
+    pages = sorted((Path(__file__).parents[2] / "docs" / "api").glob("*.md"))
+    text = "\n".join(page.read_text(encoding="utf-8") for page in pages)
     return re.findall(r"^\.\. auto(?:function|class|module):: (\S+)", text, re.MULTILINE)
 
 

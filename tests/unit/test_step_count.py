@@ -55,16 +55,23 @@ def test_many_storeys_at_once() -> None:
 def test_a_brace_that_is_too_fast_is_named(change: dict[str, float], named: str) -> None:
     with pytest.raises(InvalidInput, match=f"{named}.*would take about .* steps; at most 1e.09"):
         fdspec.simulate(frame(**change), MOTION)
-    two = fdspec.Building([20e3] * 2, 3e6, brace_stiffness=12e6, slip_force=5e4, **change)
-    with pytest.raises(InvalidInput, match=named):
-        fdspec.simulate(two, MOTION)
+
+
+def test_of_several_storeys_a_plate_that_is_too_light_is_named_and_a_weak_dashpot_costs_nothing() -> None:
+    def two(**change: float) -> fdspec.Building:
+        return fdspec.Building([20e3] * 2, 3e6, brace_stiffness=12e6, slip_force=5e4, **change)
+
+    with pytest.raises(InvalidInput, match="brace_mass 1e-12 kg"):
+        fdspec.simulate(two(brace_mass=1e-12), MOTION)
+    # What decays faster than rounding can tell asks for no short steps.
+    assert fdspec.simulate(two(brace_mass=0.0, brace_damping=1e-4), MOTION).status == 0
 
 
 def test_a_step_that_is_too_long_and_a_wait_that_never_ends() -> None:
     slow = fdspec.GroundMotion(MOTION.acceleration, 1e6, name="slow")
     with pytest.raises(InvalidInput, match=r"floors of 20000 kg .* with dt 1e\+06 s, would take"):
         fdspec.simulate(frame(slip_force=np.inf), slow)
-    with pytest.raises(InvalidInput, match="record steps of dt 0.01 s, free_vibration included"):
+    with pytest.raises(InvalidInput, match="a history of .* samples would take|free_vibration included"):
         fdspec.simulate(frame(), MOTION, free_vibration=1e9, dt_out=1e3)
 
 

@@ -86,7 +86,7 @@ def test_one_row_that_fails_fails_the_command(
 
 def test_a_family_that_is_none(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["verify", "--only", "everything"]) == 2
-    assert "must be one of closed-forms, steady-states" in capsys.readouterr().err
+    assert "must be one of closed-forms, devices, steady-states" in capsys.readouterr().err
     with pytest.raises(InvalidInput, match="got 'everything'"):
         verify(["everything"])
 
