@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 import click
-import numpy as np
 
 from fdspec.cli.as_json import echo_json, json_option, of_dataset
 from fdspec.cli.device_options import DEVICES, device_options, given
@@ -228,6 +227,8 @@ def _storeys(history: xr.Dataset) -> str:
 
 def _results(history: xr.Dataset) -> str:
     """Return the peaks, a line each."""
+    import numpy as np
+
     from fdspec.units import G
 
     one = abs(history[[name for name in OF_ALL_STOREYS if name in history]]).max("storey")

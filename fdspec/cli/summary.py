@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import click
-import numpy as np
 
 from fdspec.cli.as_json import echo_json, json_option, of_dataset
 from fdspec.cli.echo import echo
@@ -82,6 +81,8 @@ def summary(
 
 def _at(cube: xr.Dataset, place: str) -> xr.Dataset:
     """Take one point of an axis."""
+    import numpy as np
+
     axis, equals, text = place.partition("=")
     axis = axis.strip()
     if not equals:
@@ -128,6 +129,8 @@ def _table(told: xr.Dataset) -> str:
 
 
 def _cells(array: Any, statistics: list[str]) -> list[str]:
+    import numpy as np
+
     cells = []
     for k, _ in enumerate(statistics):
         values = array.isel(statistic=k).values

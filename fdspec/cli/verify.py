@@ -31,8 +31,10 @@ def verify(full: bool, only: tuple[str, ...], form: str | None) -> None:
     """Verify this installation: compute what has a known answer, and print both, their difference, its limit.
 
     Every figure is computed in this run, nothing is stored. The exit code is 1 when a row fails.
-    Families: closed-forms, devices, steady-states, linear-limits, engines, general-solver, fixed-step, energy,
-    symmetry, methods.
+
+    \b
+    Families: closed-forms, devices, steady-states, linear-limits,
+    engines, general-solver, fixed-step, energy, symmetry, methods.
     """
     from time import perf_counter
 

@@ -123,7 +123,7 @@ def _schema(cube: xr.Dataset, registry: Registry) -> Finding:
         described = describe(cube, registry)
     except ValueError as error:
         return Finding("schema", False, str(error))
-    needed = ("status", *(dim for dim in cube.dims if dim != "transition"))
+    needed = ("status", *(dim for dim in cube.dims if dim in registry))
     lacking = [str(name) for name in needed if name not in cube.variables]
     if lacking:
         return Finding("schema", False, f"there is no variable {', '.join(lacking)}")

@@ -168,7 +168,7 @@ records = [
   { path = "FSR3", pga = 3.0 },
   { path = "FMR1", sa = 4.0, period = 0.5, damping_ratio = 0.02 },
   { path = "FMR2", target = "target.csv", period = [0.2, 1.5] },
-  { path = "ns.txt", units = "m/s2", dt = 0.02, sa = 6.0, period = 1, pair = "ew.txt", combination = "rotd100" },
+  { path = "ns.txt", units="m/s2", dt=0.02, sa=6, period=1, pair = "ew.txt", combination = "rotd100" },
 ]
 scaling = { sa = 5.0, period = [0.1, 1.0] }
 """
