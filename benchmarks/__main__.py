@@ -12,11 +12,22 @@ from statistics import median
 import numpy as np
 
 import fdspec
-from benchmarks import elastic, fixed_step, frames, general, page, side_by_side, start, study, timing
+from benchmarks import (
+    elastic,
+    fixed_step,
+    frames,
+    general,
+    inelastic,
+    page,
+    side_by_side,
+    start,
+    study,
+    timing,
+)
 from benchmarks.problem import SLIPPING_ELEVEN, STUDY_ELEVEN, Problem, answer, slipping_cells
 from benchmarks.table import percent, seconds, show
 
-PEERS = ("numba", "numpy", "scipy", "dask", "openseespy", "pyrotd", "eqsig", "sdof")
+PEERS = ("numba", "numpy", "scipy", "dask", "openseespy", "pyrotd", "eqsig", "sdof", "gmspy")
 WITHIN = 1e-3
 CALLS = 5
 """Sweeps of ours in each turn beside a peer's one history, so that what a turn begins with does not count."""
@@ -251,6 +262,7 @@ PARTS: dict[str, tuple[Callable[[], None], ...]] = {
     "ordinate": (ordinate,),
     "study": (whole_study,),
     "storeys": (side_by_side.sweeps, side_by_side.peers),
+    "inelastic": (inelastic.rows,),
     "scaling": (scaling,),
     "start": (starting,),
     "page": (browsing,),
