@@ -73,7 +73,10 @@ marks = {"holds": "+", "holds in part": "~", "does not hold": "-", "not tested":
 def told(found):
     """Return shares in percent with their marks, a row a part."""
     cells = [
-        [f"{int(100 * share + 1e-9)} {marks[str(verdict)]}" for share, verdict in zip(*row, strict=True)]
+        [
+            f"{int(100 * share + 1e-9)} {marks[str(verdict)]}" if np.isfinite(share) else ""
+            for share, verdict in zip(*row, strict=True)
+        ]
         for row in zip(found.share.values, found.verdict.values, strict=True)
     ]
     table = pd.DataFrame(cells, index=found.part.values, columns=found.record.values)

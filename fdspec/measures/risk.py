@@ -104,9 +104,9 @@ def risk(fit: xr.Dataset, hazard: Hazard | str | Path) -> xr.Dataset:
 
     Notes
     -----
-    rate = integral of P(exceeds | im) |d lambda(im)|, with lambda a power of im between two points: straight
-    on double-logarithmic paper.  Beyond the last point the fragility there is taken, which is a lower bound;
-    intensities below the first point are left out.
+    The rate is the integral of the probability of exceedance over the fall of the hazard curve, which is a
+    power of the intensity between two points: straight on double-logarithmic paper.  Beyond the last point
+    the fragility there is taken, which is a lower bound; intensities below the first point are left out.
     """
     import xarray as xr
     from scipy.special import ndtr

@@ -80,7 +80,7 @@ def inelastic_spectra(
         Elastic strength over yield strength, 1 or more.  Exactly one of the three is given.
     collapse_ductility : float, optional
         Ductility at which a history ends as collapsed.  For a negative hardening ratio that at which the
-        spring's force is used up, 1 + 1/|hardening_ratio|; else none.
+        spring's force is used up, one more than the inverse of its magnitude; else none.
     workers : int, optional
         Threads; one a core unless given.
     progress : bool

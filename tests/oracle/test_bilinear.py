@@ -42,7 +42,8 @@ def _compare(seed):
     ours = _one(oscillator, period, strength, motion)
     if ours["status"] != 0.0:  # negative hardening ran away: the oracle has no end for that
         return
-    free = 12.0 * period
+    # Long enough for the strength to use up the velocity that all of the ground could give.
+    free = 12.0 * period + float(np.abs(motion.acceleration).sum()) * dt / strength
     peak_u, peak_a, p, travel, events = bilinear(
         motion.acceleration,
         dt,
