@@ -113,7 +113,7 @@ def bilinear(ground, dt, *, period, damping_ratio, hardening_ratio, strength, fr
     for n in range(steps + round(free / dt)):
         if n > steps and branch == 0:  # no energy left to yield with, nor for a larger displacement
             swing = np.hypot(u - (1.0 - alpha) * p, v / omega)
-            if alpha * abs(p) + swing < 0.999 * spring.limit and (1.0 - alpha) * abs(p) + swing < peak_u:
+            if abs(alpha * p) + swing < 0.999 * spring.limit and (1.0 - alpha) * abs(p) + swing < peak_u:
                 break
         start, end = (ground[n], ground[n + 1]) if n < steps else (0.0, 0.0)
         slope = (end - start) / dt
