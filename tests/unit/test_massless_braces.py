@@ -43,6 +43,18 @@ def apart(one: Course, other: Course) -> float:
     return float(worst)
 
 
+def sensitivity(building: Building, motion: GroundMotion, start: np.ndarray, free: int, one: Course) -> float:
+    """How far a change of the ground in its last digits moves a peak: thousands of slips may amplify it.
+
+    Kinetic friction below static can make the motion chaotic; what rounding decides, no step can.
+    """
+    moved = 0.0
+    for digit in (1e-15, -1e-15, 3e-15):
+        shaken = GroundMotion(motion.acceleration * (1.0 + digit), motion.dt)
+        moved = max(moved, apart(one, run(building, shaken, start, free)))
+    return moved
+
+
 def held_up(*floors: float) -> np.ndarray:
     """Floors that start displaced, at rest, each brace with its floor."""
     start = np.zeros((2, 2, len(floors)))
@@ -193,8 +205,9 @@ def faults(seeds: range) -> list[str]:
             told.append(f"status {STATUS_MEANINGS[one.status]}, {STATUS_MEANINGS[other.status]}")
         if not max(one.energy_error, other.energy_error) < 1e-9:
             told.append(f"energy error {one.energy_error:.1e}, {other.energy_error:.1e}")
-        if not apart(one, other) < 1e-9:
-            told.append(f"halving moves a peak by {apart(one, other):.1e}")
+        moved = apart(one, other)
+        if not moved < 1e-9 and not moved < 10.0 * sensitivity(building, motion, start, free, one):
+            told.append(f"halving moves a peak by {moved:.1e}")
         work = estimated_steps(building, motion, free * motion.dt) + 50 * one.transition_time.size
         # Both runs of an engine's, and a step of many storeys under a busy machine.
         if not spent < 5.0 + 20.0 * work * building.n_storeys * 10e-6:
