@@ -38,9 +38,18 @@ def refuse_long(seconds: float, default_hours: float, what: str) -> None:
         )
 
 
+PACKED: Final = 0.1
+"""Share of their size that results take on disk at the least; a study's cube takes a quarter."""
+
+
 def refuse_large(n_bytes: float, what: str, *, folder: Path | None = None) -> None:
-    """Raise InvalidInput for results larger than the free memory or, with a folder, its free disk."""
+    """Raise InvalidInput for results larger than the free memory or, with a folder, its free disk.
+
+    On disk they are packed; what surely does not fit even so is refused.
+    """
     free = memory_free() if folder is None else _disk_free(folder)
+    if folder is not None:
+        n_bytes *= PACKED
     if free is not None and n_bytes > free:
         where = "of memory" if folder is None else f"on the disk of {folder}"
         remedy = "; a store, such as cube.zarr, needs no memory for it" if folder is None else ""
