@@ -56,7 +56,7 @@ def test_a_history_without_end_is_given_up(monkeypatch: pytest.MonkeyPatch) -> N
     for k in range(200):
         ground = 3.0 * np.sin(0.13 * np.array([k, k + 1.0]))
         rate = (ground[1] - ground[0]) / 0.01
-        flags = False, False
+        flags = False, False, False
         walk(scheme, np.empty(0), s, 0.01 * k, ground[0], rate, *flags, *series, *none, 0.0, 0, 0.0)
         if s[STATUS] != OK:
             break

@@ -235,7 +235,7 @@ def test_ctrl_c_under_a_progress_bar_ends_cleanly(folder: Path) -> None:
     before = names(folder)
     terminal, stderr = pty.openpty()
     process = subprocess.Popen(
-        [sys.executable, "-m", "fdspec", "sweep", "long.toml"],
+        [sys.executable, "-m", "fdspec", "sweep", "long.toml", "--resumable"],
         stdout=subprocess.PIPE,
         stderr=stderr,
         env={**os.environ, "TERM": "xterm", "PYTHONPATH": str(Path(fdspec.__file__).parents[1])},

@@ -16,6 +16,7 @@ from __future__ import annotations
 import math
 
 from fdspec.compiler.options import fma, inlined, inner
+from fdspec.kernels.friction import sliding_force
 from fdspec.kernels.mathematics.extremum import Weights, top_inside
 from fdspec.kernels.mathematics.oscillator import advance, expand
 from fdspec.kernels.mathematics.polynomial_roots import largest_magnitude
@@ -134,7 +135,7 @@ def step_brace_peak(plan, phase, u, v, d, e, offset, ground, rate, room, search,
         return stick_brace_peak(plan, room, search, n, 0.0, start, end, force, offset, plan.step, best)
     if storey.brace_mass == 0.0:
         return max(best, storey.kinetic_slip_force)
-    b0 = phase * storey.kinetic_slip_force / storey.brace_mass - ground
+    b0 = sliding_force(phase, storey.kinetic_slip_force / storey.brace_mass) - ground
     h = plan.slip_step
     n = int(plan.slip_order)
     for _ in range(int(plan.slip_steps)):
