@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import math
 import re
 from array import array
 from collections import Counter
@@ -453,7 +454,7 @@ def always_rises(column: NDArray[np.float64]) -> bool:
 def roughness(table: Table) -> tuple[float, float]:
     """Return the mean difference of neighbours in a row, and of values below each other."""
     whole = table.values[: table.values.size // table.width * table.width].reshape(-1, table.width)
-    return float(np.abs(np.diff(whole, axis=1)).mean()), float(np.abs(np.diff(whole, axis=0)).mean())
+    return _mean(np.abs(np.diff(whole, axis=1))), _mean(np.abs(np.diff(whole, axis=0)))
 
 
 def runs_on(table: Table) -> bool:
@@ -463,5 +464,10 @@ def runs_on(table: Table) -> bool:
     """
     along, across = roughness(table)
     whole = table.values[: table.values.size // table.width * table.width].reshape(-1, table.width)
-    over = float(np.abs(whole[1:, 0] - whole[:-1, -1]).mean())
+    over = _mean(np.abs(whole[1:, 0] - whole[:-1, -1]))
     return along < CLEARLY * across and over < OVER_ENDS * along
+
+
+def _mean(values: np.ndarray) -> float:
+    """The mean, or infinity of nothing: one row or one column alone says nothing of smoothness."""
+    return float(values.mean()) if values.size else math.inf
