@@ -75,7 +75,8 @@ def set_step(p, lane, ground, dt, step, radians):
     left = dt - tau
     parts = max(1.0, math.ceil(left * rate / radians - 1e-9))
     h = left / parts
-    order = ORDERS[min(int(h * rate * PARTS_OF_RADIAN), ORDERS.size - 1)]
+    # A state or a rate that is no number has any integer for its place.
+    order = ORDERS[max(0, min(int(h * rate * PARTS_OF_RADIAN), ORDERS.size - 1))]
     a0 = ground[step]
     slope = (ground[step + 1] - a0) / dt
     p[LENGTH * WIDTH + lane] = h
