@@ -221,14 +221,21 @@ def _with_unit(heading: Heading) -> Heading:
     return replace(heading, contradiction=True)
 
 
+_SECONDS_UNDERSCORED: Final = re.compile(r"_\s*(?:s|sec|ms)$", re.IGNORECASE)
+_UNDERSCORED: Final = re.compile(r"_[^\s()\[\]{},;]+$")
+"""A heading that ends with what may be a unit behind an underscore."""
+
+
 def row_of(cells: list[str]) -> list[Heading]:
     """Return the headings of a row of cells, each settled with the help of its neighbours."""
     headings = [heading_of(cell) for cell in cells]
-    by_underscore = any(
-        heading.unit is not None and not heading.subscript and re.search(r"_\s*(?:s|sec|ms)$", heading.text)
-        for heading in headings
-    ) or any(heading.subscript and heading.text.casefold() == "t_s" for heading in headings)
-    headings = [_settled_subscript(heading, by_underscore) for heading in headings]
+    sure = [h for h in headings if h.unit is not None and not h.subscript]
+    by_underscore = any(_SECONDS_UNDERSCORED.search(h.text) for h in sure) or any(
+        h.subscript and h.text.casefold() == "t_s" for h in headings
+    )
+    # H1_G beside V_G, or acc_g beside v_g: what is surely a unit for one is so for the other.
+    units = {h.unit for h in sure if _UNDERSCORED.search(h.text)}
+    headings = [_settled_subscript(h, by_underscore or h.unit in units) for h in headings]
     accelerates = any(h.quantity == words.ACCELERATION for h in headings)
     clear = any(
         (h.quantity == words.DIRECTION and not h.other) or set(words.tokens(h.name)) & _CLEAR_DIRECTIONS

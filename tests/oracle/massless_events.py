@@ -280,5 +280,7 @@ class Integrator:
             turns = (slope @ z) * (slope @ after) < 0.0
             for i in np.nonzero(turns)[0]:
                 c = pattern.series(z, h)
+                if polyval(0.0, c @ slope[i]) * polyval(1.0, c @ slope[i]) >= 0.0:
+                    continue  # it turns at an end, to rounding
                 x = float(brentq(polyval, 0.0, 1.0, args=(c @ slope[i],), xtol=1e-15))
                 peaks[i] = max(peaks[i], abs(polyval(x, c @ rows[i])))

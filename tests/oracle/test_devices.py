@@ -96,8 +96,9 @@ def compare(seed):
     assert ours.transitions.item() == theirs.counts["damper"], cell
     if "peak_slip" in ours:
         assert ours.peak_slip.item() == pytest.approx(theirs.slip, rel=1e-9), cell
-        assert int(ours.column_events.sum()) == theirs.counts["column"], cell
-        assert int(ours.slot_events.sum()) == theirs.counts["slot"], cell
+    for kind in ("column", "slot"):  # a frame without such devices has no count of their events
+        events = int(ours[f"{kind}_events"].sum()) if f"{kind}_events" in ours else 0
+        assert events == theirs.counts[kind], cell
 
 
 @pytest.mark.parametrize("seed", [5, 7, 8, 12])

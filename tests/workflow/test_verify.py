@@ -125,7 +125,7 @@ def with_friction_swapped(package: Path) -> None:
     """Hand kernels kinetic friction for static, and static for kinetic."""
     static, kinetic = "    slip_force: float\n", "    kinetic_slip_force: float\n"
     replace(package / "kernels" / "types.py", static + kinetic, kinetic + static)
-    frame = package / "kernels" / "frame.py"
+    frame = package / "kernels" / "frame" / "model.py"
     replace(
         frame, r"\nSLIP_FORCE = 8\nKINETIC_SLIP_FORCE = 9\n", "\nSLIP_FORCE = 9\nKINETIC_SLIP_FORCE = 8\n"
     )
