@@ -28,6 +28,8 @@ Array = NDArray[np.float64]
 
 RADIANS = 0.5
 """Sub-step times the fastest rate."""
+PLACES = np.linspace(0.0, 1.0, 9)
+"""Where in a sub-step a slope's sign is looked at: it may change twice between the ends."""
 ORDER = 22
 """Terms of the exponential's series within such a sub-step: to rounding."""
 MOST_CHANGES = 20_000
@@ -276,11 +278,8 @@ class Integrator:
         for rows, peaks in ((pattern.acceleration, answer.acceleration), (still, answer.displacement)):
             a, b = rows @ z, rows @ after
             np.maximum(peaks, np.maximum(np.abs(a), np.abs(b)), out=peaks)
-            slope = rows @ pattern.matrix
-            turns = (slope @ z) * (slope @ after) < 0.0
-            for i in np.nonzero(turns)[0]:
-                c = pattern.series(z, h)
-                if polyval(0.0, c @ slope[i]) * polyval(1.0, c @ slope[i]) >= 0.0:
-                    continue  # it turns at an end, to rounding
-                x = float(brentq(polyval, 0.0, 1.0, args=(c @ slope[i],), xtol=1e-15))
-                peaks[i] = max(peaks[i], abs(polyval(x, c @ rows[i])))
+            slope = pattern.series(z, h) @ (rows @ pattern.matrix).T
+            signs = np.sign(polyval(PLACES, slope))
+            for i, k in zip(*np.nonzero(signs[:, 1:] * signs[:, :-1] < 0.0), strict=True):
+                x = float(brentq(polyval, PLACES[k], PLACES[k + 1], args=(slope[:, i],), xtol=1e-15))
+                peaks[i] = max(peaks[i], abs(polyval(x, pattern.series(z, h) @ rows[i])))

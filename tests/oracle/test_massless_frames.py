@@ -14,6 +14,22 @@ from tests.oracle import massless_events
 SAMPLES = 60
 
 
+def lasting(changes: list[tuple[float, int, int]], shortest: float) -> list[tuple[int, int]]:
+    """Storey and phase of the changes, without slip that is over in less than ``shortest`` (s).
+
+    Free vibration without damping comes to swing just to the slip force, where rounding decides: a reaction of
+    1 + 2e-16 times that force lasts 1e-8 of a period.
+    """
+    kept: list[tuple[float, int, int]] = []
+    for time, storey, phase in changes:
+        began = next((k for k in range(len(kept) - 1, -1, -1) if kept[k][1] == storey), None)
+        if phase == 0 and began is not None and kept[began][2] != 0 and time - kept[began][0] < shortest:
+            del kept[began]
+        else:
+            kept.append((time, storey, phase))
+    return [(storey, phase) for _, storey, phase in kept]
+
+
 def differences(seed: int) -> list[str]:
     """Where engine and oracle disagree on the frame of this seed; its braces have no mass."""
     building, motion, start, _ = draw(
@@ -47,12 +63,13 @@ def differences(seed: int) -> list[str]:
     travel = np.abs(got.slip_travel[-1] - want.travel)[rubbing]
     if not travel.max(initial=0.0) <= 1e-9 * max(want.travel.max(), want.displacement.max()):
         found.append(f"seed {seed}: slip_travel {got.slip_travel[-1]} and {want.travel}")
+    shortest = 1e-6 * motion.dt
+    times, storeys, phases = got.transition_time, got.transition_storey, got.transition_phase
+    ours = lasting(list(zip(times.tolist(), storeys.tolist(), phases.tolist(), strict=True)), shortest)
+    theirs = lasting(want.changes, shortest)
     # Forces of a billionth of those in the frame change phase by rounding as well.
-    ours = list(zip(got.transition_storey.tolist(), got.transition_phase.tolist(), strict=True))
-    if building.slip_force[rubbing].min(initial=np.inf) > 1.0 and ours != [
-        (i, s) for _, i, s in want.changes
-    ]:
-        found.append(f"seed {seed}: {len(ours)} and {len(want.changes)} changes of phase")
+    if building.slip_force[rubbing].min(initial=np.inf) > 1.0 and ours != theirs:
+        found.append(f"seed {seed}: {len(ours)} and {len(theirs)} changes of phase")
     return found
 
 
