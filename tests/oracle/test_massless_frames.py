@@ -17,8 +17,8 @@ SAMPLES = 60
 def lasting(changes: list[tuple[float, int, int]], shortest: float) -> list[tuple[int, int]]:
     """Storey and phase of the changes, without slip that is over in less than ``shortest`` (s).
 
-    Free vibration without damping comes to swing just to the slip force, where rounding decides: a reaction of
-    1 + 2e-16 times that force lasts 1e-8 of a period.
+    Free vibration without damping comes to swing just to the slip force, where rounding decides: a
+    reaction of 1 + 2e-16 times that force lasts 1e-8 of a period.
     """
     kept: list[tuple[float, int, int]] = []
     for time, storey, phase in changes:
