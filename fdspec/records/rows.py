@@ -468,6 +468,6 @@ def runs_on(table: Table) -> bool:
     return along < CLEARLY * across and over < OVER_ENDS * along
 
 
-def _mean(values: np.ndarray) -> float:
+def _mean(values: NDArray[np.float64]) -> float:
     """The mean, or infinity of nothing: one row or one column alone says nothing of smoothness."""
     return float(values.mean()) if values.size else math.inf

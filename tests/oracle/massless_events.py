@@ -278,8 +278,9 @@ class Integrator:
         for rows, peaks in ((pattern.acceleration, answer.acceleration), (still, answer.displacement)):
             a, b = rows @ z, rows @ after
             np.maximum(peaks, np.maximum(np.abs(a), np.abs(b)), out=peaks)
-            slope = pattern.series(z, h) @ (rows @ pattern.matrix).T
+            c = pattern.series(z, h)
+            slope = c @ (rows @ pattern.matrix).T
             signs = np.sign(polyval(PLACES, slope))
             for i, k in zip(*np.nonzero(signs[:, 1:] * signs[:, :-1] < 0.0), strict=True):
                 x = float(brentq(polyval, PLACES[k], PLACES[k + 1], args=(slope[:, i],), xtol=1e-15))
-                peaks[i] = max(peaks[i], abs(polyval(x, pattern.series(z, h) @ rows[i])))
+                peaks[i] = max(peaks[i], abs(polyval(x, c @ rows[i])))
