@@ -93,7 +93,7 @@ def one_history() -> None:
     _, theirs, ratio = timing.pairs(run, slipping)
     add("fdspec sweep, eleven that all slip", theirs / slips, ratio * count / slips, error, None)
     single = timing.best_of(lambda: fdspec.simulate(building, motion))
-    add("fdspec simulate, with its course in time", single, single / each, error, len(exact.transitions))
+    add("fdspec simulate, with its time series", single, single / each, error, len(exact.transitions))
     for step in (1e-4, 1e-5, 1e-6):
         a, _, changes = fixed_step.run(problem, step)
         _, theirs, ratio = timing.pairs(run, lambda step=step: fixed_step.run(problem, step), calls=CALLS)

@@ -68,6 +68,6 @@ def building_of(cell: Cell) -> fdspec.Building:
 
 
 def simulated(cell: Cell, acceleration: ArrayLike, dt: float) -> Answer:
-    """The cell as one history with its course in time."""
+    """The cell as one history with its trajectory."""
     motion = fdspec.GroundMotion(acceleration, dt, name="cell")
     return answer_of(fdspec.simulate(building_of(cell), motion))

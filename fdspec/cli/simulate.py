@@ -198,7 +198,7 @@ def _refuse_frame_options(building: str) -> None:
 
 
 def _peaks(history: xr.Dataset) -> xr.Dataset:
-    """Return what has no course in time, save text about the record."""
+    """Return what is one value for the whole history, save text about the record."""
     kept = [name for name, array in history.data_vars.items() if not {"time", "transition"} & set(array.dims)]
     told = history[kept]
     return told.drop_vars(

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from fdspec.engines.trajectory import CourseWithDevices, DeviceCourse, FloatArray, IntArray, Span
+from fdspec.engines.trajectory import DeviceCourse, FloatArray, IntArray, Span, TrajectoryWithDevices
 from fdspec.kernels.devices import layout as row
 from fdspec.kernels.devices.history import RADIANS, TOTALS, integrate
 from fdspec.kernels.devices.output import FLOOR_TRACES, LINK_TRACES, TOTAL_TRACES
@@ -44,7 +44,7 @@ class Outcome(NamedTuple):
 
 
 class Traces(NamedTuple):
-    """Room for the course in time."""
+    """Room for the trajectory."""
 
     log_times: FloatArray
     log: IntArray
@@ -133,7 +133,7 @@ def integrate_devices(
     *,
     radians: float = RADIANS,
     extra_terms: int = 0,
-) -> CourseWithDevices:
+) -> TrajectoryWithDevices:
     """Integrate a building with devices; arguments as for `run`."""
     frame = building.device_frame
     size = building.n_storeys
@@ -143,7 +143,7 @@ def integrate_devices(
     first = run(frame, motion, span, start, None, resume, **options)
     traces = _room(int(first.totals["events"]), span.outputs, size, links)
     outcome = run(frame, motion, span, start, traces, resume, **options)
-    return _course(building, frame, traces, outcome)
+    return _trajectory(building, frame, traces, outcome)
 
 
 def _of_storeys(values: FloatArray, places: IntArray, absent: float = 0.0) -> FloatArray:
@@ -157,7 +157,7 @@ def _of_storeys(values: FloatArray, places: IntArray, absent: float = 0.0) -> Fl
 def peaks_of(
     building: Building, motion: GroundMotion, free_steps: int = 0
 ) -> tuple[dict[str, FloatArray], dict[str, float]]:
-    """Integrate a building from rest, without its course in time.
+    """Integrate a building from rest, without its trajectory.
 
     Returns what each storey has of its own by name, (N,), and what the building has: ``transitions``,
     energies, ``energy_error``, ``status``.
@@ -221,7 +221,9 @@ def storey_results(building: Building, frame: DeviceFrame, outcome: Outcome) -> 
     }
 
 
-def _course(building: Building, frame: DeviceFrame, traces: Traces, outcome: Outcome) -> CourseWithDevices:
+def _trajectory(
+    building: Building, frame: DeviceFrame, traces: Traces, outcome: Outcome
+) -> TrajectoryWithDevices:
     floor = {name: traces.floors[:, i] for i, name in enumerate(FLOOR_TRACES)}
     link = {name: traces.links[:, i] for i, name in enumerate(LINK_TRACES)}
     energy = {name: traces.energies[:, i] for i, name in enumerate(TOTAL_TRACES)}
@@ -259,7 +261,7 @@ def _course(building: Building, frame: DeviceFrame, traces: Traces, outcome: Out
         collapse_drift=float(frame.drift_limit[storey]) if storey >= 0 else np.inf,
     )
     displacement, velocity = floor["displacement"], floor["velocity"]
-    return CourseWithDevices(
+    return TrajectoryWithDevices(
         displacement=np.ascontiguousarray(displacement),
         velocity=np.ascontiguousarray(velocity),
         acceleration=np.ascontiguousarray(floor["acceleration"]),

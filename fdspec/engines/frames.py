@@ -31,7 +31,7 @@ def runs_beside_others(frame: Frame) -> bool:
 def peaks_of_frames(
     frames: Sequence[Frame], motion: GroundMotion, *, certify: bool
 ) -> tuple[FloatArray, FloatArray]:
-    """Integrate frames of equally many storeys from rest, without their course in time.
+    """Integrate frames of equally many storeys from rest, without their trajectory.
 
     certify: whether the balance of all energies is wanted.  Returns the rows of STOREY_RESULTS for each
     storey (m, rows, N), and TOTALS (m, entries).  No history depends on which others are asked for.

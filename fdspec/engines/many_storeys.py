@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from fdspec.engines.trajectory import Course, FloatArray, IntArray, Span
+from fdspec.engines.trajectory import FloatArray, IntArray, Span, Trajectory
 from fdspec.errors import InvalidInput
 from fdspec.kernels.frame.history import integrate
 from fdspec.kernels.frame.model import BRACE_MASS, SLIP_FORCE, held_rates, rate_of, slip_norms
@@ -49,7 +49,7 @@ def estimated_steps(building: Building, motion: GroundMotion, free_vibration: fl
 def peaks_of(
     frame: Frame, motion: GroundMotion, *, certify: bool, free_steps: int = 0
 ) -> tuple[FloatArray, FloatArray]:
-    """Integrate a frame from rest, without its course in time.
+    """Integrate a frame from rest, without its trajectory.
 
     certify: whether the balance of all energies is wanted.  free_steps: steps of dt with the ground at rest
     that follow.  Returns the rows of STOREY_RESULTS for each
@@ -90,7 +90,7 @@ def integrate_many_storeys(
     *,
     radians: float = RADIANS,
     extra_terms: int = 0,
-) -> Course:
+) -> Trajectory:
     """Integrate a building of any number of storeys.
 
     start: displacement and velocity of floors and braces, (2, 2, N), m and m/s.  resume: the end of another
@@ -147,21 +147,21 @@ def integrate_many_storeys(
     energies = np.full((span.outputs, len(TOTAL_TRACES)), np.nan)
     run(*changes, traces, energies)
 
-    course = {name: np.ascontiguousarray(traces[:, i]) for i, name in enumerate(STOREY_TRACES)}
+    trajectory = {name: np.ascontiguousarray(traces[:, i]) for i, name in enumerate(STOREY_TRACES)}
     work = {name: np.ascontiguousarray(energies[:, i]) for i, name in enumerate(TOTAL_TRACES)}
     result = dict(zip(STOREY_RESULTS, by_storey[:END], strict=True))
     total = dict(zip(TOTALS, totals, strict=True))
-    return Course(
-        displacement=course["displacement"],
-        velocity=course["velocity"],
-        acceleration=course["acceleration"],
-        brace_displacement=course["brace_displacement"],
-        brace_velocity=course["brace_velocity"],
-        friction_force=course["friction_force"],
-        phase=np.nan_to_num(course["phase"]).astype(np.int64),
-        slip_travel=course["slip_travel"],
-        storey_friction_energy=course["storey_friction_energy"],
-        storey_shear=course["storey_shear"],
+    return Trajectory(
+        displacement=trajectory["displacement"],
+        velocity=trajectory["velocity"],
+        acceleration=trajectory["acceleration"],
+        brace_displacement=trajectory["brace_displacement"],
+        brace_velocity=trajectory["brace_velocity"],
+        friction_force=trajectory["friction_force"],
+        phase=np.nan_to_num(trajectory["phase"]).astype(np.int64),
+        slip_travel=trajectory["slip_travel"],
+        storey_friction_energy=trajectory["storey_friction_energy"],
+        storey_shear=trajectory["storey_shear"],
         input_energy=work["input_energy"],
         viscous_energy=work["viscous_energy"],
         transition_time=changes[0],

@@ -71,17 +71,17 @@ def rest_of_building(
         raise InvalidInput(
             f"at_rest needs friction in every damper, got slip_force 0 in storey {int(np.argmax(free)) + 1}"
         )
-    course = integrate_many_storeys(building, motion, replace(span, outputs=1), start, resume)
+    trajectory = integrate_many_storeys(building, motion, replace(span, outputs=1), start, resume)
     still = GroundMotion(np.zeros(2), motion.dt, name="at rest")
     going = Span(EVERY - 1, motion.dt, 1)
-    steps, status = 0, course.status
-    while status == OK and course.end is not None and can_slip(building, course.end):
+    steps, status = 0, trajectory.status
+    while status == OK and trajectory.end is not None and can_slip(building, trajectory.end):
         if steps >= REST_STEPS:
             status = TRANSITION_CAP_REACHED
             break
-        course = integrate_many_storeys(building, still, going, start, course.end)
-        steps, status = steps + EVERY, course.status
-    if course.end is None or not math.isfinite(course.end.sum()):
-        return Rest(steps, course.residual_displacement, course.residual_slip, status)
-    slip = course.end.reshape(END_ROWS, -1)[2].copy()
+        trajectory = integrate_many_storeys(building, still, going, start, trajectory.end)
+        steps, status = steps + EVERY, trajectory.status
+    if trajectory.end is None or not math.isfinite(trajectory.end.sum()):
+        return Rest(steps, trajectory.residual_displacement, trajectory.residual_slip, status)
+    slip = trajectory.end.reshape(END_ROWS, -1)[2].copy()
     return Rest(steps, rest_position(building, slip), slip, status)

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from fdspec.engines.trajectory import Course, FloatArray, IntArray, Rest, Span
+from fdspec.engines.trajectory import FloatArray, IntArray, Rest, Span, Trajectory
 from fdspec.errors import InvalidInput
 from fdspec.kernels.storey.constants import RADIANS
 from fdspec.kernels.storey.entry import integrate
@@ -91,7 +91,7 @@ def integrate_single_storey(
     resume: FloatArray | None = None,
     *,
     radians: float = RADIANS,
-) -> Course:
+) -> Trajectory:
     """Integrate a building of one storey.
 
     start: displacement and velocity of floor and brace, (2, 2, 1), m and m/s.  resume: the end of another
@@ -106,27 +106,27 @@ def integrate_single_storey(
     times, phases = np.empty(changes), np.empty(changes, np.int64)
     if changes:
         run(times, phases, traces)
-    course = dict(zip(TRACES, traces.T[:, :, np.newaxis], strict=True))
+    trajectory = dict(zip(TRACES, traces.T[:, :, np.newaxis], strict=True))
     peak = dict(zip(RESULTS, run.result, strict=True))
     shear = (
-        storey.floor_stiffness * course["displacement"]
-        + storey.floor_damping * course["velocity"]
-        + storey.brace_stiffness * course["brace_displacement"]
-        + storey.brace_damping * course["brace_velocity"]
+        storey.floor_stiffness * trajectory["displacement"]
+        + storey.floor_damping * trajectory["velocity"]
+        + storey.brace_stiffness * trajectory["brace_displacement"]
+        + storey.brace_damping * trajectory["brace_velocity"]
     )
-    return Course(
-        displacement=course["displacement"],
-        velocity=course["velocity"],
-        acceleration=course["acceleration"],
-        brace_displacement=course["brace_displacement"],
-        brace_velocity=course["brace_velocity"],
-        friction_force=course["friction_force"],
-        phase=np.nan_to_num(course["phase"]).astype(np.int64),  # NaN where a broken history never came
-        slip_travel=course["slip_travel"],
-        storey_friction_energy=course["friction_energy"],
+    return Trajectory(
+        displacement=trajectory["displacement"],
+        velocity=trajectory["velocity"],
+        acceleration=trajectory["acceleration"],
+        brace_displacement=trajectory["brace_displacement"],
+        brace_velocity=trajectory["brace_velocity"],
+        friction_force=trajectory["friction_force"],
+        phase=np.nan_to_num(trajectory["phase"]).astype(np.int64),  # NaN where a broken history never came
+        slip_travel=trajectory["slip_travel"],
+        storey_friction_energy=trajectory["friction_energy"],
         storey_shear=shear,
-        input_energy=course["input_energy"][:, 0],
-        viscous_energy=course["viscous_energy"][:, 0],
+        input_energy=trajectory["input_energy"][:, 0],
+        viscous_energy=trajectory["viscous_energy"][:, 0],
         transition_time=times,
         transition_storey=np.zeros(changes, np.int64),
         transition_phase=phases,

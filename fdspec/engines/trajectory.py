@@ -12,7 +12,7 @@ IntArray = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
-class Course:
+class Trajectory:
     """One history: at m output instants, for N storeys, with n changes of phase; SI units.
 
     Arrays over time are (m, N) unless said otherwise, arrays of peaks (N,).
@@ -90,7 +90,7 @@ class DeviceCourse:
 
 
 @dataclass(frozen=True)
-class CourseWithDevices(Course):
+class TrajectoryWithDevices(Trajectory):
     """One history of a building with devices."""
 
     devices: DeviceCourse = field(kw_only=True)
@@ -98,7 +98,7 @@ class CourseWithDevices(Course):
 
 @dataclass(frozen=True)
 class Span:
-    """How long a history runs and how often it is told."""
+    """How long a history runs, and how often its state is written out."""
 
     free_steps: int
     """Steps of the record's dt with the ground at rest that follow the record."""

@@ -1,7 +1,7 @@
 """The other ways of computing friction that the study names, as references beside the exact engine.
 
 Each is one small file: a frozen class of its parameters, whose ``integrate`` takes what the exact engine
-takes and gives back the same `Course`. They serve to see the difference; none is meant to replace it.
+takes and gives back the same `Trajectory`. They serve to see the difference; none is meant to replace it.
 """
 
 from typing import TYPE_CHECKING

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from fdspec.engines.trajectory import Course, Span
+from fdspec.engines.trajectory import Span, Trajectory
 from fdspec.kernels.storey.history import RESULTS
 from fdspec.methods import Method
 from fdspec.model.building import Building, DampingMatrix
@@ -44,23 +44,23 @@ def _building(frame: FloatArray, slip_force: float, kinetic_slip_force: float) -
     return Building(m_f, k_f, m_d, k_d, slip_force, kinetic_slip_force, damping, c_d)
 
 
-def _results(course: Course) -> tuple[float, ...]:
+def _results(trajectory: Trajectory) -> tuple[float, ...]:
     """Return a row in the order of RESULTS."""
     values = {
-        "peak_acceleration": course.peak_acceleration[0],
-        "peak_displacement": course.peak_displacement[0],
-        "peak_velocity": course.peak_velocity[0],
-        "peak_base_shear": course.peak_base_shear,
-        "residual_displacement": course.residual_displacement[0],
-        "slip_travel": course.slip_travel[-1, 0],
-        "transitions": course.transition_time.size,
-        "dissipated_energy": course.dissipated_energy,
-        "input_energy": course.input_energy[-1],
-        "energy_error": course.energy_error,
-        "status": course.status,
-        "peak_slip": course.peak_slip[0],
-        "residual_slip": course.residual_slip[0],
-        "peak_brace_force": course.peak_brace_force[0],
-        "peak_column_shear": course.peak_column_shear[0],
+        "peak_acceleration": trajectory.peak_acceleration[0],
+        "peak_displacement": trajectory.peak_displacement[0],
+        "peak_velocity": trajectory.peak_velocity[0],
+        "peak_base_shear": trajectory.peak_base_shear,
+        "residual_displacement": trajectory.residual_displacement[0],
+        "slip_travel": trajectory.slip_travel[-1, 0],
+        "transitions": trajectory.transition_time.size,
+        "dissipated_energy": trajectory.dissipated_energy,
+        "input_energy": trajectory.input_energy[-1],
+        "energy_error": trajectory.energy_error,
+        "status": trajectory.status,
+        "peak_slip": trajectory.peak_slip[0],
+        "residual_slip": trajectory.residual_slip[0],
+        "peak_brace_force": trajectory.peak_brace_force[0],
+        "peak_column_shear": trajectory.peak_column_shear[0],
     }
     return tuple(float(values[name]) for name in RESULTS)

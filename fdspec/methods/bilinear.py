@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from fdspec.engines.trajectory import Course, FloatArray, Span
+from fdspec.engines.trajectory import FloatArray, Span, Trajectory
 from fdspec.methods.marching import Dampers, march
 from fdspec.methods.matrices import braced, discretised, drifts, state_matrix, with_elements
 from fdspec.methods.method import (
@@ -18,7 +18,7 @@ from fdspec.methods.method import (
     positive,
     without_brace_mass,
 )
-from fdspec.methods.samples import Samples, count_steps, course_of, stepwise
+from fdspec.methods.samples import Samples, count_steps, stepwise, trajectory_of
 from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
 
@@ -57,7 +57,9 @@ class Bilinear(Method):
         """Return the building with massless braces."""
         return without_brace_mass(building)
 
-    def integrate(self, building: Building, motion: GroundMotion, span: Span, start: FloatArray) -> Course:
+    def integrate(
+        self, building: Building, motion: GroundMotion, span: Span, start: FloatArray
+    ) -> Trajectory:
         """Integrate one history."""
         from fdspec.kernels.fixed_step.balanced import OFFSET
 
@@ -101,7 +103,7 @@ class Bilinear(Method):
         below_velocity = v - v @ drifts(size).T
         brace_velocity = np.where(phase == 0, v, below_velocity)  # slipping, the spring keeps its length
         rest = u @ building.stiffness_matrix + v @ building.damping_matrix
-        return course_of(
+        return trajectory_of(
             self.model(building),
             Samples(
                 step=h,

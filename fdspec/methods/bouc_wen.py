@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from fdspec.engines.trajectory import Course, FloatArray, Span
+from fdspec.engines.trajectory import FloatArray, Span, Trajectory
 from fdspec.errors import InvalidInput
 from fdspec.methods.matrices import braced, drifts
 from fdspec.methods.method import (
@@ -18,7 +18,7 @@ from fdspec.methods.method import (
     positive,
     without_brace_mass,
 )
-from fdspec.methods.samples import Samples, count_steps, course_of, stepwise
+from fdspec.methods.samples import Samples, count_steps, stepwise, trajectory_of
 from fdspec.methods.smooth import integrate_smooth
 from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
@@ -73,7 +73,9 @@ class BoucWen(Method):
         """Return the building with massless braces."""
         return without_brace_mass(building)
 
-    def integrate(self, building: Building, motion: GroundMotion, span: Span, start: FloatArray) -> Course:
+    def integrate(
+        self, building: Building, motion: GroundMotion, span: Span, start: FloatArray
+    ) -> Trajectory:
         """Integrate one history."""
         no_brace_damping(self, building)
         ground, parts = intervals(motion, span), parts_of(motion, self.dt)
@@ -116,7 +118,7 @@ class BoucWen(Method):
         for i in storeys:  # the spring of the brace carries R
             d[:, i] = (u[:, i - 1] if i > 0 else 0.0) + R[:, i] / k_d[i]
             e[:, i] = (v[:, i - 1] if i > 0 else 0.0) + rate[:, i] / k_d[i]
-        return course_of(
+        return trajectory_of(
             self.model(building),
             Samples(
                 step=motion.dt / parts,

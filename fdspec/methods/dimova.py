@@ -9,10 +9,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from fdspec.engines.trajectory import Course, FloatArray, Span
+from fdspec.engines.trajectory import FloatArray, Span, Trajectory
 from fdspec.methods.matrices import braced, drifts
 from fdspec.methods.method import Method, intervals, parts_of, positive
-from fdspec.methods.samples import Samples, count_steps, course_of, stepwise
+from fdspec.methods.samples import Samples, count_steps, stepwise, trajectory_of
 from fdspec.methods.smooth import integrate_smooth
 from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
@@ -55,7 +55,9 @@ class Dimova(Method):
         for name, unit in (("velocity_band", "m/s"), ("rtol", ""), ("dt", "s")):
             positive(self, name, unit)
 
-    def integrate(self, building: Building, motion: GroundMotion, span: Span, start: FloatArray) -> Course:
+    def integrate(
+        self, building: Building, motion: GroundMotion, span: Span, start: FloatArray
+    ) -> Trajectory:
         """Integrate one history."""
         ground, parts = intervals(motion, span), parts_of(motion, self.dt)
         count_steps(self, ground.shape[0], parts)
@@ -72,7 +74,7 @@ class Dimova(Method):
         with np.errstate(invalid="ignore"):
             sliding = np.where(np.abs(v - e) >= self.velocity_band, np.sign(v - e), 0.0)
         phase = np.where(law.free, sliding, 0.0).astype(np.int64)
-        return course_of(
+        return trajectory_of(
             building,
             Samples(
                 step=motion.dt / parts,

@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from fdspec.engines.trajectory import Course, FloatArray, Span
+from fdspec.engines.trajectory import FloatArray, Span, Trajectory
 from fdspec.errors import InvalidInput
 from fdspec.methods.marching import Dampers, march
 from fdspec.methods.matrices import braced, discretised, drifts, state_matrix, with_elements
@@ -19,7 +19,7 @@ from fdspec.methods.method import (
     positive,
     without_brace_mass,
 )
-from fdspec.methods.samples import Samples, count_steps, course_of, stepwise
+from fdspec.methods.samples import Samples, count_steps, stepwise, trajectory_of
 from fdspec.model.building import Building
 from fdspec.model.damping import natural_modes
 from fdspec.model.motion import GroundMotion
@@ -72,7 +72,9 @@ class EquivalentLinear(Method):
         """Return the building with massless braces."""
         return without_brace_mass(building)
 
-    def integrate(self, building: Building, motion: GroundMotion, span: Span, start: FloatArray) -> Course:
+    def integrate(
+        self, building: Building, motion: GroundMotion, span: Span, start: FloatArray
+    ) -> Trajectory:
         """Integrate one history."""
         from fdspec.kernels.types import ITERATION_NOT_CONVERGED
 
@@ -95,7 +97,7 @@ class EquivalentLinear(Method):
             # Half way: what is stiffer moves less, and a whole step may swing about the answer for ever.
             amplitude = reached if not amplitude.any() else 0.5 * (amplitude + reached)
             k_eq, c_eq = _equivalent(building, k_eq, amplitude)
-        return course_of(
+        return trajectory_of(
             self.model(building),
             self._samples(building, states, k_eq, c_eq, stepwise(ground, parts), motion.dt / parts, status),
             span,

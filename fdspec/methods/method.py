@@ -9,7 +9,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from fdspec.engines.trajectory import Course, FloatArray, Span
+from fdspec.engines.trajectory import FloatArray, Span, Trajectory
 from fdspec.errors import InvalidInput
 from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
@@ -23,7 +23,9 @@ class Method(ABC):
     """What ``method=`` takes."""
 
     @abstractmethod
-    def integrate(self, building: Building, motion: GroundMotion, span: Span, start: FloatArray) -> Course:
+    def integrate(
+        self, building: Building, motion: GroundMotion, span: Span, start: FloatArray
+    ) -> Trajectory:
         """Integrate one history; start: displacement and velocity of floors and braces, (2, 2, N), m, m/s."""
 
     def model(self, building: Building) -> Building:

@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from fdspec.engines.trajectory import Course, FloatArray, Span
+from fdspec.engines.trajectory import FloatArray, Span, Trajectory
 from fdspec.errors import InvalidInput
 from fdspec.methods.method import Method, intervals, parts_of, positive
 from fdspec.model.building import Building
@@ -57,7 +57,9 @@ class Newmark(Method):
         if not any(abs(self.beta - beta) < 1e-9 for beta in (1.0 / 4.0, 1.0 / 6.0)):
             raise InvalidInput(f"beta of method {self.name!r} must be 1/4 or 1/6, got {self.beta!r}")
 
-    def integrate(self, building: Building, motion: GroundMotion, span: Span, start: FloatArray) -> Course:
+    def integrate(
+        self, building: Building, motion: GroundMotion, span: Span, start: FloatArray
+    ) -> Trajectory:
         """Integrate one history."""
         from fdspec.kernels.fixed_step import newmark as kernel
 
@@ -110,11 +112,11 @@ class Newmark(Method):
             if changes <= room:
                 break
             room = changes
-        course = {name: np.ascontiguousarray(traces[:, i]) for i, name in enumerate(kernel.STOREY_TRACES)}
+        trajectory = {name: np.ascontiguousarray(traces[:, i]) for i, name in enumerate(kernel.STOREY_TRACES)}
         peak = dict(zip(kernel.STOREY_RESULTS, results, strict=True))
-        told = course.pop("phase")
-        return Course(
-            **course,
+        told = trajectory.pop("phase")
+        return Trajectory(
+            **trajectory,
             phase=np.nan_to_num(told).astype(np.int64),
             input_energy=energies[:, 0].copy(),
             viscous_energy=energies[:, 1].copy(),

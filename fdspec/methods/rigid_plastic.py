@@ -7,11 +7,11 @@ from typing import ClassVar
 
 import numpy as np
 
-from fdspec.engines.trajectory import Course, FloatArray, IntArray, Span
+from fdspec.engines.trajectory import FloatArray, IntArray, Span, Trajectory
 from fdspec.methods.marching import Dampers, march
 from fdspec.methods.matrices import System, braced, discretised, drifts, state_matrix
 from fdspec.methods.method import Method, intervals, parts_of, positive
-from fdspec.methods.samples import Samples, count_steps, course_of, stepwise
+from fdspec.methods.samples import Samples, count_steps, stepwise, trajectory_of
 from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
 
@@ -48,7 +48,9 @@ class RigidPlastic(Method):
     def __post_init__(self) -> None:
         positive(self, "dt", "s")
 
-    def integrate(self, building: Building, motion: GroundMotion, span: Span, start: FloatArray) -> Course:
+    def integrate(
+        self, building: Building, motion: GroundMotion, span: Span, start: FloatArray
+    ) -> Trajectory:
         """Integrate one history."""
         from fdspec.kernels.fixed_step.balanced import HELD
 
@@ -99,7 +101,7 @@ class RigidPlastic(Method):
         d[:, no_brace], e[:, no_brace] = u[:, no_brace], v[:, no_brace]
         over_steps = np.zeros((u.shape[0] - 1, size))
         over_steps[:, storeys] = w[1:]
-        return course_of(
+        return trajectory_of(
             building,
             Samples(
                 step=h,

@@ -1,4 +1,4 @@
-"""From a motion that is known at the ends of equal steps to a `Course`."""
+"""From a motion that is known at the ends of equal steps to a `Trajectory`."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fdspec.engines.trajectory import Course, FloatArray, IntArray, Span
+from fdspec.engines.trajectory import FloatArray, IntArray, Span, Trajectory
 from fdspec.errors import InvalidInput
 from fdspec.methods.matrices import drifts
 from fdspec.methods.method import Method
@@ -66,8 +66,8 @@ def mean_of_ends(values: FloatArray) -> FloatArray:
     return np.asarray(0.5 * (values[1:] + values[:-1]))
 
 
-def course_of(building: Building, samples: Samples, span: Span) -> Course:
-    """Work out shears, energies, peaks and changes of phase, and read the course off at the output instants.
+def trajectory_of(building: Building, samples: Samples, span: Span) -> Trajectory:
+    """Work out shears, energies, peaks and changes of phase, and with the trajectory at the output instants.
 
     Peaks are those of the samples, energies integrals by the trapezoidal rule.
     """
@@ -97,7 +97,7 @@ def course_of(building: Building, samples: Samples, span: Span) -> Course:
     columns = np.cumsum((s.displacement @ building.stiffness_matrix)[:, ::-1], axis=1)[:, ::-1]
     offset = np.where(building.brace_stiffness > 0.0, offset, 0.0)
     peak_shear = np.max(np.abs(shear), axis=0)
-    return Course(
+    return Trajectory(
         displacement=read(s.displacement),
         velocity=read(s.velocity),
         acceleration=read(s.acceleration),

@@ -7,12 +7,12 @@ from typing import ClassVar
 
 import numpy as np
 
-from fdspec.engines.trajectory import Course, FloatArray, Span
+from fdspec.engines.trajectory import FloatArray, Span, Trajectory
 from fdspec.errors import InvalidInput
 from fdspec.methods.marching import Dampers, march
 from fdspec.methods.matrices import braced, discretised, drifts, state_matrix, with_braces
 from fdspec.methods.method import Method, intervals, parts_of, positive
-from fdspec.methods.samples import Samples, count_steps, course_of, stepwise
+from fdspec.methods.samples import Samples, count_steps, stepwise, trajectory_of
 from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
 
@@ -52,7 +52,9 @@ class StateSpace(Method):
     def __post_init__(self) -> None:
         positive(self, "dt", "s")
 
-    def integrate(self, building: Building, motion: GroundMotion, span: Span, start: FloatArray) -> Course:
+    def integrate(
+        self, building: Building, motion: GroundMotion, span: Span, start: FloatArray
+    ) -> Trajectory:
         """Integrate one history."""
         from fdspec.kernels.fixed_step.balanced import HELD
 
@@ -99,7 +101,7 @@ class StateSpace(Method):
             np.zeros(storeys.size),
             started,
         )
-        return course_of(
+        return trajectory_of(
             building, self._samples(building, states, w, phases, stepwise(ground, parts), h, status), span
         )
 

@@ -1,4 +1,4 @@
-"""One building under one ground motion -> its course in time, as a Dataset."""
+"""One building under one ground motion -> its history over time, as a Dataset."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from fdspec.engines.demands import brace_force_of, column_shear_of
 from fdspec.engines.step_count import refuse_endless
-from fdspec.engines.trajectory import Course, CourseWithDevices, DeviceCourse, FloatArray, Rest, Span
+from fdspec.engines.trajectory import DeviceCourse, FloatArray, Rest, Span, Trajectory, TrajectoryWithDevices
 from fdspec.errors import IntegrationError, InvalidInput
 from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.model.building import Building
@@ -44,7 +44,7 @@ def simulate(
     at_rest: bool = False,
     max_steps: float | None = None,
 ) -> xr.Dataset:
-    """Integrate one history exactly, event by event, or by another method; return its course in time.
+    """Integrate one history exactly, event by event, or by another method; return its trajectory.
 
     Parameters
     ----------
@@ -142,35 +142,35 @@ def simulate(
                 f"method {other.name!r} knows frames, braces and friction alone; yielding columns, slots, "
                 "gravity and links need the exact method"
             )
-        course = other.integrate(building, motion, span, start)
+        trajectory = other.integrate(building, motion, span, start)
     elif building.has_devices:
         from fdspec.engines.devices import integrate_devices
 
-        course = integrate_devices(building, motion, span, start, resume)
+        trajectory = integrate_devices(building, motion, span, start, resume)
     elif building.n_storeys == 1:
         from fdspec.engines.single_storey import integrate_single_storey
 
-        course = integrate_single_storey(building, motion, span, start, resume)
+        trajectory = integrate_single_storey(building, motion, span, start, resume)
     else:
         from fdspec.engines.many_storeys import integrate_many_storeys
 
-        course = integrate_many_storeys(building, motion, span, start, resume)
-    if isinstance(course, CourseWithDevices) and course.devices.collapse_storey > 0:
+        trajectory = integrate_many_storeys(building, motion, span, start, resume)
+    if isinstance(trajectory, TrajectoryWithDevices) and trajectory.devices.collapse_storey > 0:
         raise IntegrationError(
             f"the history of {building!r} under {motion.name or 'the motion'} ended with status collapsed: "
-            f"the drift of storey {course.devices.collapse_storey} reached its limit of "
-            f"{course.devices.collapse_drift:g} m at {course.devices.collapse_time:.4f} s "
+            f"the drift of storey {trajectory.devices.collapse_storey} reached its limit of "
+            f"{trajectory.devices.collapse_drift:g} m at {trajectory.devices.collapse_time:.4f} s "
             "(collapse_drift of the building sets the limit)"
         )
-    if course.status != 0:
+    if trajectory.status != 0:
         raise IntegrationError(
             f"the history of {building!r} under {motion.name or 'the motion'} ended with status "
-            f"{STATUSES[course.status]} after {course.transition_time.size} changes of phase"
+            f"{STATUSES[trajectory.status]} after {trajectory.transition_time.size} changes of phase"
         )
     if rest is not None:
-        course = replace(course, residual_displacement=rest.displacement, residual_slip=rest.slip)
+        trajectory = replace(trajectory, residual_displacement=rest.displacement, residual_slip=rest.slip)
     solved = building if other is None else other.model(building)
-    return _dataset(solved, motion, span, start, course, {} if other is None else other.parameters)
+    return _dataset(solved, motion, span, start, trajectory, {} if other is None else other.parameters)
 
 
 def _end_of(history: object, building: Building) -> FloatArray:
@@ -262,70 +262,70 @@ def _dataset(
     motion: GroundMotion,
     span: Span,
     start: FloatArray,
-    course: Course,
+    trajectory: Trajectory,
     method: dict[str, object],
 ) -> xr.Dataset:
     time = np.arange(span.outputs, dtype=np.float64) * span.dt_out
-    below = np.zeros_like(course.displacement)
-    below[:, 1:] = course.displacement[:, :-1]
-    drift = course.displacement - below
-    brace_drift = course.brace_displacement - below
+    below = np.zeros_like(trajectory.displacement)
+    below[:, 1:] = trajectory.displacement[:, :-1]
+    drift = trajectory.displacement - below
+    brace_drift = trajectory.brace_displacement - below
     kinetic = 0.5 * (
-        course.velocity**2 @ building.floor_mass + course.brace_velocity**2 @ building.brace_mass
+        trajectory.velocity**2 @ building.floor_mass + trajectory.brace_velocity**2 @ building.brace_mass
     )
     strain = 0.5 * (
-        np.einsum("ti,ij,tj->t", course.displacement, building.stiffness_matrix, course.displacement)
+        np.einsum("ti,ij,tj->t", trajectory.displacement, building.stiffness_matrix, trajectory.displacement)
         + brace_drift**2 @ building.brace_stiffness
     )
     braced = building.brace_stiffness > 0.0
-    slip = np.where(braced, course.displacement - course.brace_displacement, 0.0)
-    residual = course.residual_displacement
+    slip = np.where(braced, trajectory.displacement - trajectory.brace_displacement, 0.0)
+    residual = trajectory.residual_displacement
     storeys = np.arange(1, building.n_storeys + 1)
     each = ("time", "storey")
     variables: dict[str, Any] = {
         "ground_acceleration": ("time", _ground_at(motion, time, span.dt_out)),
-        "displacement": (each, course.displacement),
-        "velocity": (each, course.velocity),
-        "acceleration": (each, course.acceleration),
+        "displacement": (each, trajectory.displacement),
+        "velocity": (each, trajectory.velocity),
+        "acceleration": (each, trajectory.acceleration),
         "drift": (each, drift),
-        "storey_shear": (each, course.storey_shear),
-        "brace_displacement": (each, course.brace_displacement),
-        "brace_velocity": (each, course.brace_velocity),
-        "friction_force": (each, course.friction_force),
+        "storey_shear": (each, trajectory.storey_shear),
+        "brace_displacement": (each, trajectory.brace_displacement),
+        "brace_velocity": (each, trajectory.brace_velocity),
+        "friction_force": (each, trajectory.friction_force),
         "slip": (each, slip),
-        "brace_force": (each, brace_force_of(building, course)),
-        "column_shear": (each, column_shear_of(building, course)),
-        "phase": (each, course.phase.astype(np.int8)),
-        "slip_travel": (each, course.slip_travel),
+        "brace_force": (each, brace_force_of(building, trajectory)),
+        "column_shear": (each, column_shear_of(building, trajectory)),
+        "phase": (each, trajectory.phase.astype(np.int8)),
+        "slip_travel": (each, trajectory.slip_travel),
         "kinetic_energy": ("time", kinetic),
         "strain_energy": ("time", strain),
-        "viscous_energy": ("time", course.viscous_energy),
-        "friction_energy": ("time", course.storey_friction_energy.sum(axis=1)),
-        "storey_friction_energy": (each, course.storey_friction_energy),
-        "input_energy": ("time", course.input_energy),
-        "transition_time": ("transition", course.transition_time),
-        "transition_storey": ("transition", storeys[course.transition_storey]),
-        "transition_phase": ("transition", course.transition_phase.astype(np.int8)),
-        "peak_acceleration": ("storey", course.peak_acceleration),
-        "peak_displacement": ("storey", course.peak_displacement),
-        "peak_velocity": ("storey", course.peak_velocity),
-        "peak_drift": ("storey", course.peak_drift),
-        "peak_storey_shear": ("storey", course.peak_storey_shear),
-        "peak_base_shear": ((), course.peak_base_shear),
+        "viscous_energy": ("time", trajectory.viscous_energy),
+        "friction_energy": ("time", trajectory.storey_friction_energy.sum(axis=1)),
+        "storey_friction_energy": (each, trajectory.storey_friction_energy),
+        "input_energy": ("time", trajectory.input_energy),
+        "transition_time": ("transition", trajectory.transition_time),
+        "transition_storey": ("transition", storeys[trajectory.transition_storey]),
+        "transition_phase": ("transition", trajectory.transition_phase.astype(np.int8)),
+        "peak_acceleration": ("storey", trajectory.peak_acceleration),
+        "peak_displacement": ("storey", trajectory.peak_displacement),
+        "peak_velocity": ("storey", trajectory.peak_velocity),
+        "peak_drift": ("storey", trajectory.peak_drift),
+        "peak_storey_shear": ("storey", trajectory.peak_storey_shear),
+        "peak_base_shear": ((), trajectory.peak_base_shear),
         "residual_displacement": ("storey", residual),
-        "peak_slip": ("storey", course.peak_slip),
-        "residual_slip": ("storey", course.residual_slip),
-        "peak_brace_force": ("storey", course.peak_brace_force),
-        "peak_column_shear": ("storey", course.peak_column_shear),
+        "peak_slip": ("storey", trajectory.peak_slip),
+        "residual_slip": ("storey", trajectory.residual_slip),
+        "peak_brace_force": ("storey", trajectory.peak_brace_force),
+        "peak_column_shear": ("storey", trajectory.peak_column_shear),
         "residual_drift": ("storey", np.diff(residual, prepend=0.0)),
         "storey_transitions": (
             "storey",
-            np.bincount(course.transition_storey, minlength=building.n_storeys).astype(np.int64),
+            np.bincount(trajectory.transition_storey, minlength=building.n_storeys).astype(np.int64),
         ),
-        "transitions": ((), np.int64(course.transition_time.size)),
-        "dissipated_energy": ((), course.dissipated_energy),
-        "energy_error": ((), course.energy_error),
-        "status": ((), np.int8(course.status)),
+        "transitions": ((), np.int64(trajectory.transition_time.size)),
+        "dissipated_energy": ((), trajectory.dissipated_energy),
+        "energy_error": ((), trajectory.energy_error),
+        "status": ((), np.int8(trajectory.status)),
     }
     told = {
         "record": motion.name,
@@ -349,11 +349,11 @@ def _dataset(
         **{name: ((), value) for name, value in told.items()},
     }
     if not np.isnan(building.storey_height).any():
-        variables["peak_drift_ratio"] = ("storey", course.peak_drift / building.storey_height)
-    if course.end is not None:
-        variables["end_state"] = ("state", course.end)
-    if isinstance(course, CourseWithDevices):
-        variables |= _of_devices(building, course.devices)
+        variables["peak_drift_ratio"] = ("storey", trajectory.peak_drift / building.storey_height)
+    if trajectory.end is not None:
+        variables["end_state"] = ("state", trajectory.end)
+    if isinstance(trajectory, TrajectoryWithDevices):
+        variables |= _of_devices(building, trajectory.devices)
         if building.links:
             coords["link"] = [link.name or f"link {i}" for i, link in enumerate(building.links, start=1)]
     dataset = xr.Dataset(variables, coords=coords)

@@ -99,7 +99,7 @@ def sweep(
     """Compute the cube: peaks of a single-storey frame over record, stiffness ratio, pretension and period.
 
     Each history is integrated exactly, event by event, under a ground acceleration that is linear
-    between samples; see `fdspec.simulate` for one of them with its course in time.
+    between samples; see `fdspec.simulate` for one of them with its trajectory.
 
     Parameters
     ----------

@@ -24,7 +24,7 @@ def transitions_file(path: Path) -> Path:
 
 
 def write_history(history: xr.Dataset, part: Path, path: Path, heading: list[str]) -> None:
-    """Write the course in time to `part`; the changes of phase to the file beside `path`, as a whole.
+    """Write the time series to `part`; the changes of phase to the file beside `path`, as a whole.
 
     What each storey or link has of its own is a column for each, ``drift_1``, ``drift_2`` and so on where
     there are several; what has one value, or one for each storey, stands in the heading.

@@ -29,24 +29,24 @@ def differences(cell: cells.Cell, one: Answer, other: Answer) -> list[str]:
 
 
 def finer(cell: cells.Cell, radians: float) -> Answer:
-    """One history with pieces of at most this phase (rad) searched for roots, without a course in time."""
+    """One history with pieces of at most this phase (rad) searched for roots, without a trajectory."""
     building = building_of(cell)
     motion = fdspec.GroundMotion(cell.acceleration, cell.dt)
     span = Span(0, motion.duration, 2)
-    course = integrate_single_storey(building, motion, span, np.zeros((2, 2, 1)), radians=radians)
-    assert course.status == 0
+    trajectory = integrate_single_storey(building, motion, span, np.zeros((2, 2, 1)), radians=radians)
+    assert trajectory.status == 0
     peaks = (
-        course.peak_acceleration[0],
-        course.peak_displacement[0],
-        course.peak_velocity[0],
-        course.peak_base_shear,
+        trajectory.peak_acceleration[0],
+        trajectory.peak_displacement[0],
+        trajectory.peak_velocity[0],
+        trajectory.peak_base_shear,
     )
     return Answer(
         tuple(float(peak) for peak in peaks),
-        course.transition_time.size,
-        float(course.slip_travel[-1, 0]),
-        float(course.residual_displacement[0]),
-        course.energy_error,
+        trajectory.transition_time.size,
+        float(trajectory.slip_travel[-1, 0]),
+        float(trajectory.residual_displacement[0]),
+        trajectory.energy_error,
     )
 
 

@@ -7,21 +7,21 @@ import pytest
 
 import fdspec
 from fdspec.engines.many_storeys import integrate_many_storeys
-from fdspec.engines.trajectory import Course, Span
+from fdspec.engines.trajectory import Span, Trajectory
 from tests.buildings import CASES, Case
 from tests.reference import numbers
 
 
-def run(building: fdspec.Building, acceleration: np.ndarray, dt: float, **scheme: float) -> Course:
+def run(building: fdspec.Building, acceleration: np.ndarray, dt: float, **scheme: float) -> Trajectory:
     motion = fdspec.GroundMotion(acceleration, dt)
     start = np.zeros((2, 2, building.n_storeys))
-    course = integrate_many_storeys(building, motion, Span(0, motion.duration, 2), start, **scheme)
-    assert course.status == 0
-    assert course.energy_error < 1e-9
-    return course
+    trajectory = integrate_many_storeys(building, motion, Span(0, motion.duration, 2), start, **scheme)
+    assert trajectory.status == 0
+    assert trajectory.energy_error < 1e-9
+    return trajectory
 
 
-def same(one: Course, other: Course) -> None:
+def same(one: Trajectory, other: Trajectory) -> None:
     assert one.transition_phase.tolist() == other.transition_phase.tolist()
     assert one.transition_storey.tolist() == other.transition_storey.tolist()
     for name in (

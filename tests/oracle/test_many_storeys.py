@@ -11,7 +11,7 @@ from scipy.linalg import eigh
 import fdspec
 from fdspec.engines.many_storeys import integrate_many_storeys
 from fdspec.engines.single_storey import integrate_single_storey
-from fdspec.engines.trajectory import Course, Span
+from fdspec.engines.trajectory import Span, Trajectory
 from tests import cells, closed_forms
 from tests.answers import building_of
 from tests.buildings import CASES, Case
@@ -90,7 +90,7 @@ def compare_engines(numbers: range) -> list[str]:
     return found
 
 
-def engine_differences(one: Course, other: Course) -> list[str]:
+def engine_differences(one: Trajectory, other: Trajectory) -> list[str]:
     found = []
     if one.status != 0 or other.status != 0:
         found.append(f"status {one.status} and {other.status}")

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import fdspec
 from fdspec.engines.many_storeys import integrate_many_storeys
-from fdspec.engines.trajectory import Course, Span
+from fdspec.engines.trajectory import Span, Trajectory
 from fdspec.records import catalogue
 from tests.reference import numbers
 
@@ -19,17 +19,17 @@ GROUND, DT = numbers.motion("mdof_peaks.json")
 MOTION = fdspec.GroundMotion(GROUND[300:451], DT)
 
 
-def integrate(building: fdspec.Building, motion: fdspec.GroundMotion, **options: float) -> Course:
+def integrate(building: fdspec.Building, motion: fdspec.GroundMotion, **options: float) -> Trajectory:
     n = building.n_storeys
-    course = integrate_many_storeys(
+    trajectory = integrate_many_storeys(
         building,
         motion,
         Span(0, motion.duration, 2),
         np.zeros((2, 2, n)),
         **options,  # type: ignore[arg-type]
     )
-    assert course.status == 0
-    return course
+    assert trajectory.status == 0
+    return trajectory
 
 
 def drawn(seed: int, storeys: int) -> fdspec.Building:
@@ -115,11 +115,11 @@ def test_a_longer_record_keeps_its_beginning(building: fdspec.Building) -> None:
 @settings(max_examples=30)
 def test_storeys_never_hold_more_than_their_slip_force(building: fdspec.Building) -> None:
     n = building.n_storeys
-    course = integrate_many_storeys(building, MOTION, Span(0, 0.0037, 401), np.zeros((2, 2, n)))
-    stuck = course.phase == 0
+    trajectory = integrate_many_storeys(building, MOTION, Span(0, 0.0037, 401), np.zeros((2, 2, n)))
+    stuck = trajectory.phase == 0
     limit = building.slip_force * (1.0 + 1e-9)
-    assert (np.abs(course.friction_force) <= limit)[stuck].all()
-    travel = np.diff(course.slip_travel, axis=0)
+    assert (np.abs(trajectory.friction_force) <= limit)[stuck].all()
+    travel = np.diff(trajectory.slip_travel, axis=0)
     assert (travel >= -1e-12).all()
 
 
@@ -130,6 +130,6 @@ def test_a_hundred_random_ten_storey_buildings_under_every_record() -> None:
     for seed in range(100):
         building = drawn(1000 + seed, 10)
         for motion in motions:
-            course = integrate(building, motion)
-            worst = max(worst, course.energy_error)
+            trajectory = integrate(building, motion)
+            worst = max(worst, trajectory.energy_error)
     assert worst < 1e-9

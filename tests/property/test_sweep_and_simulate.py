@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 import fdspec
 from fdspec.engines.batch import integrate_columns
 from fdspec.engines.single_storey import integrate_single_storey
-from fdspec.engines.trajectory import Course, Span
+from fdspec.engines.trajectory import Span, Trajectory
 from fdspec.kernels.storey.history import RESULTS
 
 FloatArray = NDArray[np.float64]
@@ -74,7 +74,7 @@ def ground_of(rng: np.random.Generator, samples: int, dt: float) -> FloatArray:
 
 def history_of(
     frame: tuple[float, ...], slip_force: float, kinetic: float, motion: fdspec.GroundMotion
-) -> Course:
+) -> Trajectory:
     mass, damping, stiffness, brace_mass, brace_damping, brace = frame
     building = fdspec.Building(
         [mass],

@@ -257,10 +257,10 @@ def test_the_order_of_links_plays_no_part() -> None:
     peaks, counts = [], []
     for order in itertools.permutations(range(3)):
         building = two_storeys(links=[links[i] for i in order])
-        course = integrate_devices(building, SHORT, Span(0, 1.0, 1), np.zeros((2, 2, 2)))
-        peaks.append(course.peak_acceleration)
-        counts.append([int(course.devices.link_events[order.index(i)]) for i in range(3)])
-        assert course.energy_error < 1e-12
+        trajectory = integrate_devices(building, SHORT, Span(0, 1.0, 1), np.zeros((2, 2, 2)))
+        peaks.append(trajectory.peak_acceleration)
+        counts.append([int(trajectory.devices.link_events[order.index(i)]) for i in range(3)])
+        assert trajectory.energy_error < 1e-12
     np.testing.assert_allclose(peaks, [peaks[0]] * 6, rtol=1e-9)
     assert counts == [counts[0]] * 6
     assert min(counts[0]) > 10

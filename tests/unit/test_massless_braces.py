@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from fdspec.engines.many_storeys import estimated_steps, integrate_many_storeys
-from fdspec.engines.trajectory import Course, Span
+from fdspec.engines.trajectory import Span, Trajectory
 from fdspec.kernels.types import ENERGY_NOT_CLOSED, ENERGY_TOLERANCE, STATUS_MEANINGS
 from fdspec.model.building import Building
 from fdspec.model.damping import DampingMatrix, ModalDamping
@@ -27,14 +27,14 @@ def run(
     start: np.ndarray | None = None,
     free_steps: int = 0,
     **scheme: float,
-) -> Course:
+) -> Trajectory:
     n = building.n_storeys
     span = Span(free_steps, (motion.n - 1 + free_steps) * motion.dt, 2)
     state = np.zeros((2, 2, n)) if start is None else start
     return integrate_many_storeys(building, motion, span, state, **scheme)  # type: ignore[arg-type]
 
 
-def apart(one: Course, other: Course) -> float:
+def apart(one: Trajectory, other: Trajectory) -> float:
     """Largest difference of a peak, relative to the largest of its kind."""
     worst = 0.0
     for name in PEAKS:
@@ -43,7 +43,9 @@ def apart(one: Course, other: Course) -> float:
     return float(worst)
 
 
-def sensitivity(building: Building, motion: GroundMotion, start: np.ndarray, free: int, one: Course) -> float:
+def sensitivity(
+    building: Building, motion: GroundMotion, start: np.ndarray, free: int, one: Trajectory
+) -> float:
     """How far a change of the ground in its last digits moves a peak: thousands of slips may amplify it.
 
     Kinetic friction below static can make the motion chaotic; what rounding decides, no step can.
@@ -106,12 +108,12 @@ def test_hard_frames(name: str, shared: Path) -> None:
 def test_a_reaction_beyond_the_slip_force_lets_a_dashpot_slide_at_once() -> None:
     """Worked by hand: at rest, floor 2 carries F_2 and its column, floor 1 the difference of both storeys."""
     damped = Building(2e4, 8e6, 0.0, 16e6, [40e3, 30e3], damping=ModalDamping(0.02), brace_damping=[2e5, 1e5])
-    course = run(damped, STILL, held_up(0.03, 0.05))
-    assert course.energy_error < 1e-12
+    trajectory = run(damped, STILL, held_up(0.03, 0.05))
+    assert trajectory.energy_error < 1e-12
     # Floor 2: (8e6 x 0.02 + 30e3) / 2e4. Floor 1: (8e6 x 0.01 + 10e3) / 2e4 = 4.5 at first, more later.
-    assert course.peak_acceleration[1] == pytest.approx(9.5, rel=1e-12)
-    assert course.peak_acceleration[0] == pytest.approx(5.79825338, rel=1e-8)
-    assert apart(course, run(damped, STILL, held_up(0.03, 0.05), radians=1.25)) < 1e-12
+    assert trajectory.peak_acceleration[1] == pytest.approx(9.5, rel=1e-12)
+    assert trajectory.peak_acceleration[0] == pytest.approx(5.79825338, rel=1e-8)
+    assert apart(trajectory, run(damped, STILL, held_up(0.03, 0.05), radians=1.25)) < 1e-12
 
 
 def test_a_dashpot_slides_with_what_is_beyond_friction_over_its_damping() -> None:
@@ -125,18 +127,18 @@ def test_a_dashpot_slides_with_what_is_beyond_friction_over_its_damping() -> Non
     start[1, :, :] = speed
     motion = GroundMotion(np.zeros(11), 0.01)
     outputs = 101
-    course = integrate_many_storeys(building, motion, Span(0, 0.001, outputs), start)
+    trajectory = integrate_many_storeys(building, motion, Span(0, 0.001, outputs), start)
     t = np.linspace(0.0, 0.1, outputs)
     # c v = 20 kN is beyond F at once: e' = (F - k e) / c from e = 0. Friction hardly slows the floor.
     stretch = force / spring * (1.0 - np.exp(-spring / dashpot * t))
     slipped = speed * t - 0.5 * force / mass * t**2 - stretch
-    np.testing.assert_allclose(course.slip_travel[:, 0], slipped, rtol=0.0, atol=1e-13)
+    np.testing.assert_allclose(trajectory.slip_travel[:, 0], slipped, rtol=0.0, atol=1e-13)
     rate = speed - force / mass * t - force / dashpot * np.exp(-spring / dashpot * t)
     np.testing.assert_allclose(
-        course.velocity[:, 0] - course.brace_velocity[:, 0], rate, rtol=0.0, atol=1e-12
+        trajectory.velocity[:, 0] - trajectory.brace_velocity[:, 0], rate, rtol=0.0, atol=1e-12
     )
-    assert course.transition_phase[0] == 1
-    assert course.transition_time[0] == 0.0
+    assert trajectory.transition_phase[0] == 1
+    assert trajectory.transition_time[0] == 0.0
 
 
 @pytest.mark.parametrize("dashpot", [0.0, 2e3, [0.0, 2e3], 1e-3], ids=str)
@@ -232,8 +234,8 @@ def test_the_error_is_relative_to_the_most_that_was_put_in() -> None:
     stiffness = mass * (2.0 * math.pi / period) ** 2
     building = Building([mass, 1.0], [stiffness, 1e9], 0.0, 0.0, 0.0, damping=ModalDamping(0.0))
     whole = building.bare_periods[0]
-    course = run(building, GroundMotion(np.ones(101), whole / 100))
-    assert course.energy_error < 1e-9
+    trajectory = run(building, GroundMotion(np.ones(101), whole / 100))
+    assert trajectory.energy_error < 1e-9
 
 
 def test_work_is_estimated_before_a_history_starts() -> None:

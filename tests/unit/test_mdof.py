@@ -9,7 +9,7 @@ import pytest
 
 from fdspec.engines.many_storeys import integrate_many_storeys
 from fdspec.engines.single_storey import integrate_single_storey
-from fdspec.engines.trajectory import Course, Span
+from fdspec.engines.trajectory import Span, Trajectory
 from fdspec.errors import InvalidInput
 from fdspec.kernels.frame.taylor import LONGEST_PHASE, TERMS, TRUNCATION, order_for
 from fdspec.model.building import Building, DampingMatrix, ModalDamping, RayleighDamping
@@ -30,14 +30,14 @@ def run(
     dt_out: float | None = None,
     start: np.ndarray | None = None,
     **options: float,
-) -> Course:
+) -> Trajectory:
     total = motion.duration + free_steps * motion.dt
     span = Span(free_steps, total / (outputs - 1) if dt_out is None else dt_out, outputs)
     state = np.zeros((2, 2, building.n_storeys)) if start is None else start
-    course = integrate_many_storeys(building, motion, span, state, **options)  # type: ignore[arg-type]
-    assert course.status == 0
-    assert course.energy_error < 1e-9
-    return course
+    trajectory = integrate_many_storeys(building, motion, span, state, **options)  # type: ignore[arg-type]
+    assert trajectory.status == 0
+    assert trajectory.energy_error < 1e-9
+    return trajectory
 
 
 def three_storeys(**changes: object) -> Building:
@@ -53,7 +53,7 @@ def three_storeys(**changes: object) -> Building:
     return Building(**given)  # type: ignore[arg-type]
 
 
-def assert_same(one: Course, other: Course, rtol: float = 1e-10) -> None:
+def assert_same(one: Trajectory, other: Trajectory, rtol: float = 1e-10) -> None:
     np.testing.assert_array_equal(one.transition_storey, other.transition_storey)
     np.testing.assert_array_equal(one.transition_phase, other.transition_phase)
     np.testing.assert_allclose(one.transition_time, other.transition_time, rtol=0.0, atol=1e-10)
@@ -78,15 +78,15 @@ def test_reference_buildings(which: int) -> None:
         given["slip_force_n"],
         damping=ModalDamping(given["modal_damping_ratio"]),
     )
-    course = run(building, WHOLE)
-    np.testing.assert_allclose(course.peak_acceleration, given["peak_acceleration_m_s2"], rtol=1e-11)
-    np.testing.assert_allclose(course.peak_displacement, given["peak_displacement_m"], rtol=1e-11)
-    assert course.transition_time.size == given["n_transitions"]
-    final = np.concatenate([course.displacement[-1], course.brace_displacement[-1]])
+    trajectory = run(building, WHOLE)
+    np.testing.assert_allclose(trajectory.peak_acceleration, given["peak_acceleration_m_s2"], rtol=1e-11)
+    np.testing.assert_allclose(trajectory.peak_displacement, given["peak_displacement_m"], rtol=1e-11)
+    assert trajectory.transition_time.size == given["n_transitions"]
+    final = np.concatenate([trajectory.displacement[-1], trajectory.brace_displacement[-1]])
     scale = max(given["peak_displacement_m"])
     np.testing.assert_allclose(final, given["final_displacement_m"], rtol=0.0, atol=1e-11 * scale)
-    np.testing.assert_allclose(course.residual_displacement, course.displacement[-1], rtol=1e-12)
-    assert course.energy_error < 1e-12
+    np.testing.assert_allclose(trajectory.residual_displacement, trajectory.displacement[-1], rtol=1e-12)
+    assert trajectory.energy_error < 1e-12
 
 
 DAMPED = {"brace_damping": [2e4, 0.0, 5e4]}
@@ -123,11 +123,11 @@ KINDS = {
 @pytest.mark.parametrize("kind", KINDS)
 def test_neither_the_step_nor_the_order_is_in_the_answer(kind: str) -> None:
     building = three_storeys(**KINDS[kind])
-    course = run(building)
-    assert course.transition_time.size > 20
+    trajectory = run(building)
+    assert trajectory.transition_time.size > 20
     for options in ({"radians": 1.25}, {"radians": 0.4}, {"extra_terms": 6}):
         other = run(building, **options)  # type: ignore[arg-type]
-        assert_same(course, other)
+        assert_same(trajectory, other)
 
 
 @pytest.mark.parametrize(
@@ -172,14 +172,14 @@ def test_two_storeys_that_slip_at_one_instant() -> None:
     both = np.nonzero(record[:, 0] & record[:, 1] & (reaction[:, 0] > 2e4))[0]
     at = both[0]
     forces = [reaction[at, 0], reaction[at, 1], math.inf]
-    course = run(three_storeys(slip_force=forces))
-    assert sorted(course.transition_storey[:2]) == [0, 1]
-    assert course.transition_time[1] - course.transition_time[0] < 1e-9
-    assert course.transition_time[0] == pytest.approx(locked_time(at), abs=1e-9)
+    trajectory = run(three_storeys(slip_force=forces))
+    assert sorted(trajectory.transition_storey[:2]) == [0, 1]
+    assert trajectory.transition_time[1] - trajectory.transition_time[0] < 1e-9
+    assert trajectory.transition_time[0] == pytest.approx(locked_time(at), abs=1e-9)
     for options in ({"radians": 1.0}, {"extra_terms": 5}):
         other = run(three_storeys(slip_force=forces), **options)  # type: ignore[arg-type]
-        np.testing.assert_allclose(course.peak_acceleration, other.peak_acceleration, rtol=1e-10)
-        assert course.transition_time.size == other.transition_time.size
+        np.testing.assert_allclose(trajectory.peak_acceleration, other.peak_acceleration, rtol=1e-10)
+        assert trajectory.transition_time.size == other.transition_time.size
 
 
 def locked_time(index: int) -> float:
@@ -191,18 +191,18 @@ def test_storeys_that_are_let_go_beyond_their_limits_slip_at_once_together() -> 
     building = three_storeys(slip_force=10e3)
     u = np.array([0.01, 0.02, 0.03])
     start = np.array([[u, u], [np.zeros(3), np.zeros(3)]])
-    course = run(building, GroundMotion([0.0, 0.0], 0.01), free_steps=50, start=start)
-    assert course.transition_storey[:3].tolist() == [0, 1, 2]
-    assert course.transition_time[:3].tolist() == [0.0, 0.0, 0.0]
+    trajectory = run(building, GroundMotion([0.0, 0.0], 0.01), free_steps=50, start=start)
+    assert trajectory.transition_storey[:3].tolist() == [0, 1, 2]
+    assert trajectory.transition_time[:3].tolist() == [0.0, 0.0, 0.0]
 
 
 def test_floors_that_move_when_the_motion_begins_slip_without_a_transition() -> None:
     building = three_storeys()
     start = np.zeros((2, 2, 3))
     start[1, 0] = [0.5, 0.5, -0.5]
-    course = run(building, GroundMotion([0.0, 0.0], 0.001), start=start, outputs=2)
-    assert course.phase[0].tolist() == [1, 1, -1]
-    assert (course.transition_time > 0.0).all()
+    trajectory = run(building, GroundMotion([0.0, 0.0], 0.001), start=start, outputs=2)
+    assert trajectory.phase[0].tolist() == [1, 1, -1]
+    assert (trajectory.transition_time > 0.0).all()
     locked = three_storeys(slip_force=[1e3, math.inf, 1e3])
     with pytest.raises(
         InvalidInput, match="equal where the damper never slips, got 0.5 and 0 m/s in storey 2"
@@ -219,10 +219,10 @@ def test_ground_at_rest_for_seconds_and_a_record_of_two_samples() -> None:
     np.testing.assert_allclose(late.peak_acceleration, early.peak_acceleration, rtol=1e-10)
     np.testing.assert_allclose(late.transition_time, early.transition_time + 2.99, rtol=0.0, atol=1e-9)
     two = GroundMotion([8.0, -3.0], 0.2)
-    course = run(three_storeys(), two, free_steps=20)
-    assert course.transition_time.size > 0
+    trajectory = run(three_storeys(), two, free_steps=20)
+    assert trajectory.transition_time.size > 0
     fine = GroundMotion(np.linspace(8.0, -3.0, 41), 0.005)
-    assert_same(course, run(three_storeys(), fine, free_steps=800), rtol=1e-9)
+    assert_same(trajectory, run(three_storeys(), fine, free_steps=800), rtol=1e-9)
 
 
 def test_free_vibration_is_a_longer_record_of_zeros() -> None:
@@ -235,32 +235,32 @@ def test_free_vibration_is_a_longer_record_of_zeros() -> None:
 
 
 def test_a_storey_without_a_brace_has_no_phase_and_its_brace_stands_at_its_floor() -> None:
-    course = run(three_storeys(**ONE_BARE), outputs=101)
-    assert not (course.transition_storey == 1).any()
-    assert not course.phase[:, 1].any()
-    assert not course.friction_force[:, 1].any()
-    assert not course.slip_travel[:, 1].any()
-    np.testing.assert_array_equal(course.brace_displacement[:, 1], course.displacement[:, 1])
+    trajectory = run(three_storeys(**ONE_BARE), outputs=101)
+    assert not (trajectory.transition_storey == 1).any()
+    assert not trajectory.phase[:, 1].any()
+    assert not trajectory.friction_force[:, 1].any()
+    assert not trajectory.slip_travel[:, 1].any()
+    np.testing.assert_array_equal(trajectory.brace_displacement[:, 1], trajectory.displacement[:, 1])
 
 
 def test_free_sliding_counts_distance_and_no_transitions() -> None:
-    course = run(three_storeys(slip_force=0.0), outputs=20_001)
-    assert course.transition_time.size == 0
-    assert course.dissipated_energy == 0.0
-    sliding = np.abs(np.diff(course.displacement - course.brace_displacement, axis=0)).sum(axis=0)
-    np.testing.assert_allclose(course.slip_travel[-1], sliding, rtol=1e-4)
-    assert not course.friction_force.any()
+    trajectory = run(three_storeys(slip_force=0.0), outputs=20_001)
+    assert trajectory.transition_time.size == 0
+    assert trajectory.dissipated_energy == 0.0
+    sliding = np.abs(np.diff(trajectory.displacement - trajectory.brace_displacement, axis=0)).sum(axis=0)
+    np.testing.assert_allclose(trajectory.slip_travel[-1], sliding, rtol=1e-4)
+    assert not trajectory.friction_force.any()
 
 
 def test_peaks_are_those_of_the_course_sampled_finely_and_no_less() -> None:
-    course = run(three_storeys(**KINETIC), outputs=400_001)
-    below = np.pad(course.displacement, ((0, 0), (1, 0)))[:, :-1]
+    trajectory = run(three_storeys(**KINETIC), outputs=400_001)
+    below = np.pad(trajectory.displacement, ((0, 0), (1, 0)))[:, :-1]
     for peak, sampled in (
-        (course.peak_acceleration, course.acceleration),
-        (course.peak_displacement, course.displacement),
-        (course.peak_velocity, course.velocity),
-        (course.peak_drift, course.displacement - below),
-        (course.peak_storey_shear, course.storey_shear),
+        (trajectory.peak_acceleration, trajectory.acceleration),
+        (trajectory.peak_displacement, trajectory.displacement),
+        (trajectory.peak_velocity, trajectory.velocity),
+        (trajectory.peak_drift, trajectory.displacement - below),
+        (trajectory.peak_storey_shear, trajectory.storey_shear),
     ):
         finest = np.abs(sampled).max(axis=0)
         assert (peak >= finest * (1.0 - 1e-12)).all()
@@ -270,40 +270,47 @@ def test_peaks_are_those_of_the_course_sampled_finely_and_no_less() -> None:
 def test_outputs_satisfy_the_equations_of_motion() -> None:
     """Frame, brace and friction forces balance inertia in every storey at every output instant."""
     building = three_storeys(**DAMPED, **KINETIC)
-    course = run(building, outputs=997)
-    u, v, d, e = course.displacement, course.velocity, course.brace_displacement, course.brace_velocity
+    trajectory = run(building, outputs=997)
+    u, v, d, e = (
+        trajectory.displacement,
+        trajectory.velocity,
+        trajectory.brace_displacement,
+        trajectory.brace_velocity,
+    )
     below, below_v = (np.pad(x, ((0, 0), (1, 0)))[:, :-1] for x in (u, v))
     brace = building.brace_stiffness * (d - below) + building.brace_damping * (e - below_v)
     above = np.pad(brace, ((0, 0), (0, 1)))[:, 1:]
-    force = -u @ building.stiffness_matrix - v @ building.damping_matrix + above - course.friction_force
+    force = -u @ building.stiffness_matrix - v @ building.damping_matrix + above - trajectory.friction_force
     np.testing.assert_allclose(
-        building.floor_mass * course.acceleration, force, rtol=0.0, atol=1e-9 * np.abs(force).max()
+        building.floor_mass * trajectory.acceleration, force, rtol=0.0, atol=1e-9 * np.abs(force).max()
     )
-    slipping = course.phase != 0
+    slipping = trajectory.phase != 0
     assert slipping.any()
-    forces = np.broadcast_to(building.kinetic_slip_force, slipping.shape) * course.phase
-    np.testing.assert_array_equal(course.friction_force[slipping], forces[slipping])
-    stuck = np.abs(course.friction_force) <= building.slip_force * (1.0 + 1e-12)
+    forces = np.broadcast_to(building.kinetic_slip_force, slipping.shape) * trajectory.phase
+    np.testing.assert_array_equal(trajectory.friction_force[slipping], forces[slipping])
+    stuck = np.abs(trajectory.friction_force) <= building.slip_force * (1.0 + 1e-12)
     assert stuck.all()
     np.testing.assert_allclose(v[~slipping], e[~slipping], rtol=0.0, atol=1e-15)
 
 
 def test_energies_over_time_balance_and_friction_is_slip_force_times_travel() -> None:
     building = three_storeys()
-    course = run(building, outputs=101)
-    below = np.pad(course.displacement, ((0, 0), (1, 0)))[:, :-1]
-    kinetic = course.velocity**2 @ building.floor_mass + course.brace_velocity**2 @ building.brace_mass
+    trajectory = run(building, outputs=101)
+    below = np.pad(trajectory.displacement, ((0, 0), (1, 0)))[:, :-1]
+    kinetic = (
+        trajectory.velocity**2 @ building.floor_mass + trajectory.brace_velocity**2 @ building.brace_mass
+    )
     strain = (
-        np.einsum("ti,ij,tj->t", course.displacement, building.stiffness_matrix, course.displacement)
-        + (course.brace_displacement - below) ** 2 @ building.brace_stiffness
+        np.einsum("ti,ij,tj->t", trajectory.displacement, building.stiffness_matrix, trajectory.displacement)
+        + (trajectory.brace_displacement - below) ** 2 @ building.brace_stiffness
     )
     stored = 0.5 * (kinetic + strain)
-    spent = course.viscous_energy + course.storey_friction_energy.sum(axis=1)
+    spent = trajectory.viscous_energy + trajectory.storey_friction_energy.sum(axis=1)
     np.testing.assert_allclose(
-        course.input_energy, stored + spent, rtol=0.0, atol=1e-12 * np.abs(course.input_energy).max()
+        trajectory.input_energy, stored + spent, rtol=0.0, atol=1e-12 * np.abs(trajectory.input_energy).max()
     )
     np.testing.assert_allclose(
-        course.storey_friction_energy, course.slip_travel * building.slip_force, rtol=1e-15
+        trajectory.storey_friction_energy, trajectory.slip_travel * building.slip_force, rtol=1e-15
     )
 
 
@@ -318,9 +325,9 @@ def test_orders_leave_out_less_than_rounding() -> None:
 def test_upper_floors_begin_to_move_by_terms_of_high_order() -> None:
     """From rest the n-th floor's series begins at x^(2n): its peaks are found all the same, and soon."""
     tower = Building.from_periods([40e3] * 12, 1.2, 0.7, 100e3, 50.0, RayleighDamping(0.03, 1.2, 0.3))
-    course = run(tower, GroundMotion([0.0, 1.0, 0.0], 0.002))
-    assert (np.diff(course.peak_drift) < 0.0).all()
-    assert course.peak_drift[-1] > 0.0
+    trajectory = run(tower, GroundMotion([0.0, 1.0, 0.0], 0.002))
+    assert (np.diff(trajectory.peak_drift) < 0.0).all()
+    assert trajectory.peak_drift[-1] > 0.0
 
 
 @pytest.mark.parametrize("kinetic", [50e3, 30e3])
@@ -349,6 +356,6 @@ def test_two_massless_braces_released_beyond_their_slip_forces(velocity: tuple[f
     start = np.zeros((2, 2, 2))
     start[0] = 0.01, 0.018
     start[1] = velocity
-    course = run(building, GroundMotion(np.zeros(201), DT), start=start)
-    assert course.energy_error < 1e-12
-    assert 4 <= course.transition_time.size <= 40
+    trajectory = run(building, GroundMotion(np.zeros(201), DT), start=start)
+    assert trajectory.energy_error < 1e-12
+    assert 4 <= trajectory.transition_time.size <= 40

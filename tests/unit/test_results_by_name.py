@@ -1,4 +1,4 @@
-"""Kernels fill their results and their course in time by name, never by number."""
+"""Kernels fill their results and their trajectory by name, never by number."""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ BUILDINGS = {
         links=[Link(3, 0, 10e6, 20e3, mass=50.0), TensionBrace(1, 0, 1e7, 40e3, slack=0.001)],
     ),
 }
-COURSES = (
+TRAJECTORIES = (
     "displacement",
     "velocity",
     "acceleration",
@@ -52,11 +52,11 @@ def test_two_motions_give_the_bits_of_one(name: str, tmp_path: Path) -> None:
     whole = fdspec.simulate(building, WHOLE)
     fdspec.save(fdspec.simulate(building, FIRST), tmp_path / "mainshock.nc")
     second = fdspec.simulate(building, SECOND, start_from=fdspec.open(tmp_path / "mainshock.nc"))
-    for course in COURSES:
+    for trajectory in TRAJECTORIES:
         # Output instants are multiples of dt, rounded from another start.
-        scale = 1e-11 * float(abs(whole[course]).max())
+        scale = 1e-11 * float(abs(whole[trajectory]).max())
         np.testing.assert_allclose(
-            second[course][1:], whole[course][CUT + 1 :], rtol=0.0, atol=scale, err_msg=course
+            second[trajectory][1:], whole[trajectory][CUT + 1 :], rtol=0.0, atol=scale, err_msg=trajectory
         )
     np.testing.assert_array_equal(second["residual_displacement"], whole["residual_displacement"])
     later = whole["transition_time"] > CUT * DT

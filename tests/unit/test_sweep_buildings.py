@@ -101,7 +101,7 @@ def test_every_cell_is_its_history(cube: xr.Dataset) -> None:
 
 @pytest.mark.parametrize("name", ["plain", "mixed", "matrix"])
 def test_peaks_of_braces_are_those_of_their_courses(cube: xr.Dataset, name: str) -> None:
-    """Sampled finely: a course reaches its peak to (omega h)^2 / 8, and never beyond."""
+    """Sampled finely: a trajectory reaches its peak to (omega h)^2 / 8, and never beyond."""
     motion, axes = record("b", 2, 60), {"stiffness_scale": 3.0, "slip_scale": 0.3}
     h = motion.dt / 2000
     history = fdspec.simulate(scaled(unlike()[name], *axes.values()), motion, dt_out=h)

@@ -1,7 +1,7 @@
 """A sweep and the same histories one by one, on a motion so short that kernels also run uncompiled.
 
 The two take different ways through the kernels: a sweep shares work between slip forces and leaves out the
-course in time. Kernels' coverage is measured here, with the JIT off.
+trajectory. Kernels' coverage is measured here, with the JIT off.
 """
 
 import itertools

@@ -248,7 +248,7 @@ def stored(storeys, stiffness, x):
 
 @inner
 def tell(storeys, phase, x, ground, slipped, weight, row):
-    """Add ``weight`` times this state to a row (len(STOREY_TRACES), N) of the course in time."""
+    """Add ``weight`` times this state to a row (len(STOREY_TRACES), N) of the trajectory."""
     for i in range(x.shape[1]):
         row[TRACE.displacement, i] += weight * x[U, i]
         row[TRACE.velocity, i] += weight * x[V, i]

@@ -43,7 +43,7 @@ def search(
     model,
     kind,
     phase,
-    fresh,
+    vanishing,
     touching,
     tally,
     series,
@@ -62,7 +62,7 @@ def search(
     """Fill instants[i], the fraction of the step at which storey i changes, and signs[i], its direction.
 
     Return the smallest instant (NO_ROOT where there is none).  A storey that has just begun to slip has
-    fresh[i] leading terms of its sliding velocity that vanish; one that has just stuck at its limit, in
+    vanishing[i] leading terms of its sliding velocity that vanish; one that has just stuck at its limit, in
     direction touching[i], as many of its distance to the limit.  A massless brace that has just stuck is
     known to carry kinetic friction, so the first of them is the difference to static friction.
 
@@ -91,7 +91,7 @@ def search(
                     room,
                     touching[i],
                     gap,
-                    fresh[i],
+                    vanishing[i],
                     held,
                     c,
                     signs,
@@ -99,10 +99,10 @@ def search(
                 )
         else:
             signs[i] = phase[i]
-            easy = fresh[i] == 0 and kind[i] == PLAIN
+            easy = vanishing[i] == 0 and kind[i] == PLAIN
             if easy and slips_on(frame, model, phase[i], series, reach, state, h, ground, rise, i):
                 continue
-            if fresh[i] > 1:
+            if vanishing[i] > 1:
                 series[SLIDING, i + 1, 1] = 0.0
             for k in range(n + 1):
                 c[k] = series[SLIDING, i + 1, k]

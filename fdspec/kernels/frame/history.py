@@ -107,7 +107,7 @@ def history(
     signs,
     kind,
     phase,
-    fresh,
+    vanishing,
     touching,
     times,
     storeys,
@@ -151,7 +151,7 @@ def history(
                 state[k, i] = start[k, i]
             tally[0, i] = state[OFFSET, i]
             phase[i] = int(start[4, i])
-            fresh[i] = int(start[5, i])
+            vanishing[i] = int(start[5, i])
             touching[i] = int(start[6, i])
     stored = stored_energy(frame, dense_stiffness, state)
     transitions = 0
@@ -164,23 +164,25 @@ def history(
             changes = 0
             if frame[SLIP_FORCE, i] == 0.0:
                 if kind[i] == MASSLESS:
-                    begin_free(frame, phase, fresh, state, tally, i)
+                    begin_free(frame, phase, vanishing, state, tally, i)
                 else:
                     speed = state[SLIDING, i]
-                    begin_slip(frame, kind, phase, fresh, state, tally, i, 1 if speed >= 0.0 else -1, False)
+                    begin_slip(
+                        frame, kind, phase, vanishing, state, tally, i, 1 if speed >= 0.0 else -1, False
+                    )
                     state[SLIDING, i] = speed
-                    fresh[i] = 0
+                    vanishing[i] = 0
             elif state[SLIDING, i] != 0.0:
                 phase[i] = 1 if state[SLIDING, i] > 0.0 else -1
             elif abs(reaction) > frame[SLIP_FORCE, i]:
-                begin_slip(frame, kind, phase, fresh, state, tally, i, 1 if reaction > 0.0 else -1, False)
+                begin_slip(frame, kind, phase, vanishing, state, tally, i, 1 if reaction > 0.0 else -1, False)
                 # The reaction is beyond the limit, not at it: sliding accelerates, or a dashpot lets it begin
                 # with (|R| - F) / c_d.
-                fresh[i] = 1 if kind[i] == PLAIN else 0
+                vanishing[i] = 1 if kind[i] == PLAIN else 0
                 changes = 2 if returns_at_once(frame, kind, phase, state, i) else 1
             for change in range(changes):
                 if change > 0:
-                    stay_sprung(phase, fresh, touching, state, tally, i)
+                    stay_sprung(phase, vanishing, touching, state, tally, i)
                 if transitions < times.size:
                     times[transitions] = 0.0
                     storeys[transitions] = i
@@ -210,7 +212,7 @@ def history(
         tau = 0.0
         while True:
             if massless:
-                relax(frame, model, kind, phase, fresh, state)
+                relax(frame, model, kind, phase, vanishing, state)
                 rate = fastest_rate(model, phase, held_rate)
             radian = min(dt, 1.0 / rate)
             parts = max(1, math.ceil((dt - tau) * rate / radians - 1e-9))
@@ -228,7 +230,7 @@ def history(
                 massless,
                 kind,
                 phase,
-                fresh,
+                vanishing,
                 touching,
                 state,
                 tally,
@@ -288,7 +290,7 @@ def history(
                 if not only_columns:
                     raise_column_shears(dense_stiffness, model, series, n, done, c, demands)
                 for i in range(size):
-                    fresh[i] = 0
+                    vanishing[i] = 0
                     touching[i] = 0
                 tau += h * done
             if not happens:
@@ -302,7 +304,7 @@ def history(
                 damping_lanes,
                 kind,
                 phase,
-                fresh,
+                vanishing,
                 touching,
                 state,
                 tally,
@@ -336,7 +338,7 @@ def history(
         for k in range(4):
             by_storey[END + k, i] = state[k, i]
         by_storey[END + 4, i] = phase[i]
-        by_storey[END + 5, i] = fresh[i]
+        by_storey[END + 5, i] = vanishing[i]
         by_storey[END + 6, i] = touching[i]
     error = 0.0
     if certify:

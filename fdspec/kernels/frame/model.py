@@ -42,7 +42,7 @@ FRAME_ROWS = 10
 
 COMPLIANCE = 0
 """1 / mass that the floor moves with, 1/kg."""
-HELD = 1
+STUCK = 1
 """1 where floor and brace move as one, else 0."""
 SLIDING_COMPLIANCE = 2
 """1/m_f + 1/m_d of a slipping brace, else 0."""
@@ -115,12 +115,12 @@ def set_phase(frame, model, phase, i):
     model[SLIDING_COMPLIANCE, i] = 0.0
     if phase[i] == STICK:
         model[COMPLIANCE, i] = 1.0 / (floor + brace)
-        model[HELD, i] = 1.0
+        model[STUCK, i] = 1.0
         model[FRICTION, i] = 0.0
         return
     force = sliding_force(phase[i], frame[KINETIC_SLIP_FORCE, i])
     model[COMPLIANCE, i] = 1.0 / floor
-    model[HELD, i] = 0.0
+    model[STUCK, i] = 0.0
     model[FRICTION, i] = force
     if brace > 0.0:
         model[SLIDING_COMPLIANCE, i] = 1.0 / floor + 1.0 / brace

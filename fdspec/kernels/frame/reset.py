@@ -54,11 +54,11 @@ MOST_TURNS = 28.0
 """Changes within a radian that no law makes, and those after which the next has to wait the longest."""
 
 JUMPED = -1
-"""``fresh`` of a storey that sticks and whose reaction has just jumped with the force in the brace above."""
+"""``vanishing`` of a storey that sticks, whose reaction has just jumped with the force in the brace above."""
 
 
 @inner
-def begin_slip(frame, kind, phase, fresh, state, tally, i, sign, stood):
+def begin_slip(frame, kind, phase, vanishing, state, tally, i, sign, stood):
     """Start slip from stick in this direction; ``stood``: whether it has stood at the limit since it stuck.
 
     With equal static and kinetic friction the sliding acceleration begins at zero as well, unless the
@@ -71,12 +71,12 @@ def begin_slip(frame, kind, phase, fresh, state, tally, i, sign, stood):
     tally[ANCHOR, i] = state[OFFSET, i]
     state[SLIDING, i] = 0.0
     if kind[i] == PLAIN:
-        fresh[i] = 2 if static == kinetic and fresh[i] != JUMPED else 1
+        vanishing[i] = 2 if static == kinetic and vanishing[i] != JUMPED else 1
     elif frame[BRACE_DAMPING, i] > 0.0:
-        fresh[i] = 1
+        vanishing[i] = 1
     else:
         drift_rate = state[VELOCITY, i] - (state[VELOCITY, i - 1] if i > 0 else 0.0)
-        fresh[i] = 1 if stood and static == kinetic and sign * drift_rate <= 0.0 else 0
+        vanishing[i] = 1 if stood and static == kinetic and sign * drift_rate <= 0.0 else 0
         spring_back(frame, state, tally, i, sliding_force(sign, kinetic) / frame[BRACE_STIFFNESS, i])
 
 
@@ -90,7 +90,7 @@ def spring_back(frame, state, tally, i, after):
 
 
 @inner
-def begin_free(frame, phase, fresh, state, tally, i):
+def begin_free(frame, phase, vanishing, state, tally, i):
     """Begin the motion of a massless brace without friction: which way it slides, for its distance alone.
 
     Without a dashpot it springs to where it carries nothing, whichever way that is.
@@ -106,11 +106,11 @@ def begin_free(frame, phase, fresh, state, tally, i):
     tally[ANCHOR, i] = state[OFFSET, i]
     state[SLIDING, i] = speed
     phase[i] = 1 if speed >= 0.0 else -1
-    fresh[i] = 0
+    vanishing[i] = 0
 
 
 @inner
-def unsettle_below(kind, phase, fresh, touching, i):
+def unsettle_below(kind, phase, vanishing, touching, i):
     """Tell the storey below that the force in the massless brace i has jumped.
 
     What was known of the reaction there, that it stood at its limit, is known no more.
@@ -120,9 +120,9 @@ def unsettle_below(kind, phase, fresh, touching, i):
         return
     if phase[below] == STICK:
         touching[below] = 0
-        fresh[below] = JUMPED
-    elif fresh[below] > 1:
-        fresh[below] = 1
+        vanishing[below] = JUMPED
+    elif vanishing[below] > 1:
+        vanishing[below] = 1
 
 
 @inner
@@ -133,16 +133,16 @@ def returns_at_once(frame, kind, phase, state, i):
 
 
 @inner
-def stay_sprung(phase, fresh, touching, state, tally, i):
+def stay_sprung(phase, vanishing, touching, state, tally, i):
     """Make such a storey stick where its brace sprang to."""
     close_travel(state, tally, i, phase[i])
     touching[i] = phase[i]
-    fresh[i] = 1
+    vanishing[i] = 1
     phase[i] = STICK
 
 
 @inner
-def end_slip(frame, kind, phase, fresh, touching, state, tally, i, held):
+def end_slip(frame, kind, phase, vanishing, touching, state, tally, i, held):
     """Decide, at zero sliding velocity, between stick, reversal and going on; ``held`` is the reaction
     that sticking would need.  Return whether the phase changed."""
     sign = phase[i]
@@ -150,25 +150,25 @@ def end_slip(frame, kind, phase, fresh, touching, state, tally, i, held):
     if frame[SLIP_FORCE, i] == 0.0:  # free sliding has no phases; only its distance is counted by direction
         close_travel(state, tally, i, sign)
         phase[i] = -sign
-        fresh[i] = 1
+        vanishing[i] = 1
         return False
     if kind[i] == MASSLESS:
         held = sliding_force(sign, frame[KINETIC_SLIP_FORCE, i])
     after = phase_after_stop(sign, held, frame[SLIP_FORCE, i])
     if after == GOES_ON:
-        fresh[i] = 1
+        vanishing[i] = 1
         return False
     close_travel(state, tally, i, sign)
     phase[i] = after
-    fresh[i] = 0
+    vanishing[i] = 0
     if after != STICK:
-        fresh[i] = 1
+        vanishing[i] = 1
     elif kind[i] == MASSLESS:  # the reaction is exactly that of kinetic friction, its rate nought as well
         touching[i] = sign
-        fresh[i] = 1 if frame[BRACE_DAMPING, i] > 0.0 else 2
+        vanishing[i] = 1 if frame[BRACE_DAMPING, i] > 0.0 else 2
     elif abs(held) == frame[SLIP_FORCE, i]:
         touching[i] = sign
-        fresh[i] = 1
+        vanishing[i] = 1
     return True
 
 

@@ -21,7 +21,7 @@ def look_ahead(
     massless,
     kind,
     phase,
-    fresh,
+    vanishing,
     touching,
     state,
     tally,
@@ -60,13 +60,13 @@ def look_ahead(
     if massless:
         for i in range(frame.shape[1]):
             if kind[i] == MASSLESS and phase[i] != STICK:
-                follow_drift(frame, model, state, fresh, phase, n, h, series, i)
+                follow_drift(frame, model, state, vanishing, phase, n, h, series, i)
     return search(
         frame,
         model,
         kind,
         phase,
-        fresh,
+        vanishing,
         touching,
         tally,
         series,
@@ -92,7 +92,7 @@ def change_phases(
     damping_lanes,
     kind,
     phase,
-    fresh,
+    vanishing,
     touching,
     state,
     tally,
@@ -124,12 +124,12 @@ def change_phases(
             if phase[i] == STICK:
                 stood = touching[i] == signs[i]
                 touching[i] = 0
-                begin_slip(frame, kind, phase, fresh, state, tally, i, signs[i], stood)
+                begin_slip(frame, kind, phase, vanishing, state, tally, i, signs[i], stood)
                 if turn == 0 and frame[KINETIC_SLIP_FORCE, i] < frame[SLIP_FORCE, i]:
-                    unsettle_below(kind, phase, fresh, touching, i)
+                    unsettle_below(kind, phase, vanishing, touching, i)
             else:
                 held = reaction_now(frame, model, stiffness_lanes, damping_lanes, state, i)
-                changed = end_slip(frame, kind, phase, fresh, touching, state, tally, i, held)
+                changed = end_slip(frame, kind, phase, vanishing, touching, state, tally, i, held)
             if turn == 0 or frame[SLIP_FORCE, i] == 0.0:
                 count_turn(tally, i, at, radian)
             if turn == 0:

@@ -144,7 +144,7 @@ def strain_of_history(
     signs,
     kind,
     phase,
-    fresh,
+    vanishing,
     touching,
     no_times,
     none,
@@ -162,8 +162,8 @@ def strain_of_history(
         kind[i] = kind_of(frame, i)
         massless = massless or kind[i] == MASSLESS
         if kind[i] != NO_BRACE and frame[SLIP_FORCE, i] == 0.0:
-            begin_slip(frame, kind, phase, fresh, state, tally, i, 1, False)
-            fresh[i] = 0
+            begin_slip(frame, kind, phase, vanishing, state, tally, i, 1, False)
+            vanishing[i] = 0
         set_phase(frame, model, phase, i)
     rate = fastest_rate(model, phase, held_rate)
     status = OK
@@ -175,7 +175,7 @@ def strain_of_history(
         tau = 0.0
         while True:
             if massless:
-                relax(frame, model, kind, phase, fresh, state)
+                relax(frame, model, kind, phase, vanishing, state)
                 rate = fastest_rate(model, phase, held_rate)
             radian = min(dt, 1.0 / rate)
             parts = max(1, math.ceil((dt - tau) * rate / radians - 1e-9))
@@ -193,7 +193,7 @@ def strain_of_history(
                 massless,
                 kind,
                 phase,
-                fresh,
+                vanishing,
                 touching,
                 state,
                 tally,
@@ -217,7 +217,7 @@ def strain_of_history(
                 total += swept
                 end_of_step(series, n, done, state)
                 for i in range(size):
-                    fresh[i] = 0
+                    vanishing[i] = 0
                     touching[i] = 0
                 tau += h * done
             if not happens:
@@ -231,7 +231,7 @@ def strain_of_history(
                 damping_lanes,
                 kind,
                 phase,
-                fresh,
+                vanishing,
                 touching,
                 state,
                 tally,

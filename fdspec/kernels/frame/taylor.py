@@ -43,7 +43,6 @@ from fdspec.kernels.frame.model import (
     GIVEN_FORCE,
     GROUND_DASHPOTS,
     GROUND_SPRINGS,
-    HELD,
     KINETIC_SLIP_FORCE,
     MASS,
     MASSLESS,
@@ -51,6 +50,7 @@ from fdspec.kernels.frame.model import (
     SLIP_FORCE,
     SLIP_RATE,
     SPRING,
+    STUCK,
 )
 from fdspec.kernels.friction import sliding_force
 from fdspec.kernels.types import STICK
@@ -141,7 +141,7 @@ def next_terms(
         brace = plus(brace, row(model, GIVEN_FORCE, i))
     total = plus(storey, brace)
     floor = minus(shifted(total, above), storey)
-    push = minus(floor, times(row(model, HELD, i), brace))
+    push = minus(floor, times(row(model, STUCK, i), brace))
     if grounded:
         hold = times(row(model, GROUND_SPRINGS, i), x)
         hold = plus(hold, times(row(model, GROUND_DASHPOTS, i), y))
@@ -346,7 +346,7 @@ def excess_of(frame, phase, state, i):
 
 
 @inner
-def relax(frame, model, kind, phase, fresh, state):
+def relax(frame, model, kind, phase, vanishing, state):
     """Set the rates that the slips of massless braces with dashpots add to the motion.
 
     The excess of such a brace's stretch decays as exp(- k_d t / c_d) and pulls at nothing.  Once rounding
@@ -361,13 +361,13 @@ def relax(frame, model, kind, phase, fresh, state):
             excess, hidden = excess_of(frame, phase, state, i)
             if abs(excess) > hidden:
                 model[SLIP_RATE, i] = frame[BRACE_STIFFNESS, i] / frame[BRACE_DAMPING, i]
-            elif fresh[i] > 0:
+            elif vanishing[i] > 0:
                 below = state[VELOCITY, i - 1] if i > 0 else 0.0
-                fresh[i] = 0 if phase[i] * (state[VELOCITY, i] - below) > 0.0 else 1
+                vanishing[i] = 0 if phase[i] * (state[VELOCITY, i] - below) > 0.0 else 1
 
 
 @inner
-def follow_drift(frame, model, state, fresh, phase, n, h, series, i):
+def follow_drift(frame, model, state, vanishing, phase, n, h, series, i):
     """Series of the offset of a slipping massless brace: the drift less the brace's own stretch.
 
     The stretch is s F / k_d, towards which it relaxes at the rate k_d / c_d where there is a dashpot.
@@ -388,7 +388,7 @@ def follow_drift(frame, model, state, fresh, phase, n, h, series, i):
             excess *= decay / k
             series[OFFSET, i + 1, k] = series[DISPLACEMENT, i + 1, k] - series[DISPLACEMENT, i, k] - excess
         series[SLIDING, i + 1, k] = series[VELOCITY, i + 1, k] - series[VELOCITY, i, k] - rate * excess
-    if fresh[i] > 0:  # it begins or turns here: its first velocity is known, and not from differences
+    if vanishing[i] > 0:  # it begins or turns here: its first velocity is known, and not from differences
         gap = frame[SLIP_FORCE, i] - frame[KINETIC_SLIP_FORCE, i]
         speed = -rate * phase[i] * gap / stiffness
         series[SLIDING, i + 1, 0] = speed

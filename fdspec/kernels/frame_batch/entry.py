@@ -107,7 +107,7 @@ def change(
     model,
     kind,
     phase,
-    fresh,
+    vanishing,
     touching,
     state,
     tally,
@@ -134,7 +134,7 @@ def change(
         damping,
         kind,
         phase,
-        fresh,
+        vanishing,
         touching,
         state,
         tally,
@@ -153,15 +153,15 @@ def change(
     for i in range(size):
         if instants[i] <= x + SAME_INSTANT:
             put_phase(p, lane, frame, model, phase, i)
-        p[row(SPECIAL, i) + lane] = 1.0 if fresh[i] != 0 or touching[i] != 0 else 0.0
+        p[row(SPECIAL, i) + lane] = 1.0 if vanishing[i] != 0 or touching[i] != 0 else 0.0
     return events, changes
 
 
 @inner
-def forget(p, size, lane, fresh, touching):
+def forget(p, size, lane, vanishing, touching):
     """A phase that has gone on for a while is no longer special."""
     for i in range(size):
-        fresh[i] = 0
+        vanishing[i] = 0
         touching[i] = 0
         p[row(SPECIAL, i) + lane] = 0.0
 
@@ -183,7 +183,7 @@ def run(
     models,
     kinds,
     phases,
-    freshes,
+    vanishings,
     touchings,
     tallies,
     state,
@@ -232,7 +232,7 @@ def run(
                     models[lane],
                     kinds[lane],
                     phases[lane],
-                    freshes[lane],
+                    vanishings[lane],
                     touchings[lane],
                     state,
                     tallies[lane],
@@ -267,7 +267,7 @@ def run(
                 frames,
                 of_lane,
                 phases,
-                freshes,
+                vanishings,
                 touchings,
                 tallies,
                 orders,
@@ -296,7 +296,7 @@ def run(
             status = OK
             ended = False
             if special >> lane & 1 and x > 0.0:
-                forget(p, size, lane, freshes[lane], touchings[lane])
+                forget(p, size, lane, vanishings[lane], touchings[lane])
                 special &= ~(1 << lane)
             tau = p[TAU * WIDTH + lane] + p[LENGTH * WIDTH + lane] * x
             if happens >> lane & 1:
@@ -311,7 +311,7 @@ def run(
                     models[lane],
                     kinds[lane],
                     phases[lane],
-                    freshes[lane],
+                    vanishings[lane],
                     touchings[lane],
                     state,
                     tallies[lane],

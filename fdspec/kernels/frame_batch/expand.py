@@ -27,7 +27,6 @@ from fdspec.kernels.frame_batch.layout import (
     GROUND,
     GROUND_DASHPOTS,
     GROUND_SPRINGS,
-    HELD,
     INERTIA,
     INERTIA_REACH,
     JERK_REACH,
@@ -46,6 +45,7 @@ from fdspec.kernels.frame_batch.layout import (
     SLIDES,
     SPRING,
     START,
+    STUCK,
     row,
     term,
 )
@@ -145,7 +145,7 @@ def expand(p, at, size, orders, dense_stiffness, dense_damping, damped, grounded
                 floor = less8(floor, load(p, row(GROUND_DASHPOTS, i)), y)
             if dense:
                 floor = floor - load(p, row(PULL, i))
-            push = less8(floor, load(p, row(HELD, i)), brace)
+            push = less8(floor, load(p, row(STUCK, i)), brace)
             second = load(p, row(OF_FLOOR, i)) * floor
             second = fma8(load(p, row(OF_BRACE, i)), brace, second)
             if k == 0:

@@ -29,7 +29,6 @@ from fdspec.kernels.frame_batch.layout import (
     FRICTION,
     GROUND_DASHPOTS,
     GROUND_SPRINGS,
-    HELD,
     INPUT,
     LIMIT,
     LOOSE_MASS,
@@ -48,6 +47,7 @@ from fdspec.kernels.frame_batch.layout import (
     SPECIAL,
     SPRING,
     START,
+    STUCK,
     TAU,
     VISCOUS,
     row,
@@ -63,7 +63,7 @@ def put_phase(p, lane, frame, model, phase, i):
     floor = frame[rows.FLOOR_MASS, i]
     brace = frame[rows.BRACE_MASS, i]
     p[row(COMPLIANCE, i) + lane] = model[rows.COMPLIANCE, i]
-    p[row(HELD, i) + lane] = model[rows.HELD, i]
+    p[row(STUCK, i) + lane] = model[rows.STUCK, i]
     p[row(FRICTION, i) + lane] = model[rows.FRICTION, i]
     p[row(OF_FLOOR, i) + lane] = model[rows.FLOOR_SHARE, i] if sticks else 1.0 / floor
     p[row(OF_BRACE, i) + lane] = model[rows.BRACE_SHARE, i] if sticks else 1.0 / brace
@@ -74,7 +74,7 @@ def put_phase(p, lane, frame, model, phase, i):
 
 @inner
 def put_history(
-    p, at, size, lane, frame, stiffness, damping, model, kind, phase, fresh, touching, state, tally
+    p, at, size, lane, frame, stiffness, damping, model, kind, phase, vanishing, touching, state, tally
 ):
     """Set a lane to a history at rest at t = 0; a damper without friction slides from the start.
 
@@ -95,11 +95,11 @@ def put_history(
     for i in range(size):
         kind[i] = kind_of(frame, i)
         phase[i] = STICK
-        fresh[i] = 0
+        vanishing[i] = 0
         touching[i] = 0
         if kind[i] != NO_BRACE and frame[rows.SLIP_FORCE, i] == 0.0:
-            begin_slip(frame, kind, phase, fresh, state, tally, i, 1, False)
-            fresh[i] = 0
+            begin_slip(frame, kind, phase, vanishing, state, tally, i, 1, False)
+            vanishing[i] = 0
         brace = frame[rows.BRACE_MASS, i]
         p[row(SPRING, i) + lane] = frame[rows.BRACE_STIFFNESS, i]
         p[row(DASHPOT, i) + lane] = frame[rows.BRACE_DAMPING, i]

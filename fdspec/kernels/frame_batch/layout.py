@@ -28,7 +28,7 @@ HISTORY_ROWS: Final = 10
     GROUND_SPRINGS,
     GROUND_DASHPOTS,
     COMPLIANCE,
-    HELD,
+    STUCK,
     FRICTION,
     OF_FLOOR,
     OF_BRACE,
@@ -42,7 +42,7 @@ HISTORY_ROWS: Final = 10
     SLOWNESS,
     OMEGA,
 ) = range(20)
-"""COMPLIANCE, HELD, FRICTION as in `fdspec.kernels.frame.model`.  OF_FLOOR and OF_BRACE weigh the forces on
+"""COMPLIANCE, STUCK, FRICTION as in `fdspec.kernels.frame.model`.  OF_FLOOR and OF_BRACE weigh the forces on
 floor and brace in what decides the storey's phase: its reaction while it sticks, the acceleration of
 its sliding while it slips.  SLIDES is then 1, else 0, SIGN its direction, LOOSE_MASS the brace's mass,
 else 0.  LIMIT: slip force, infinite without a brace; SPECIAL: 1 where a phase has just begun;

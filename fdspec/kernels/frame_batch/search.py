@@ -103,7 +103,7 @@ def search(
     frames,
     of_lane,
     phases,
-    freshes,
+    vanishings,
     touchings,
     tallies,
     orders,
@@ -119,8 +119,8 @@ def search(
     """Fill instants[lane, i], the fraction of the step at which storey i changes, and signs[lane, i].
 
     firsts[lane]: the smallest instant, NO_ROOT where there is none.  lanes: those with alerts.
-    A storey that has just begun to slip has fresh leading terms of its sliding velocity that vanish; one
-    that has just stuck at its limit, in the direction touching, as many of its distance to the limit.
+    Of a storey that has just begun to slip, ``vanishing`` leading terms of the sliding velocity are zero; of
+    one that has just stuck at its limit, in the direction touching, as many of the distance to the limit.
     """
     filled = 0
     most = 0
@@ -133,7 +133,7 @@ def search(
             if alerts[i] >> lane & 1 == 0:
                 continue
             phase = phases[lane, i]
-            fresh = freshes[lane, i]
+            vanishing = vanishings[lane, i]
             touching = touchings[lane, i]
             q = term(at, SECOND, i, 0) + lane
             limit = frames[of_lane[lane], SLIP_FORCE, i]
@@ -148,19 +148,19 @@ def search(
                     signs[lane, i] = phase
                     firsts[lane] = min(firsts[lane], x)
                     continue
-            if fresh > 1 and phase != STICK:
+            if vanishing > 1 and phase != STICK:
                 p[q] = 0.0
             for sign in (1, -1):
-                vanishing = 0
+                zeros = 0
                 if phase != STICK:
                     if sign != phase:
                         continue
                 elif touching == sign:
-                    vanishing = fresh
+                    zeros = vanishing
                 elif sign * p[q] < room:
                     continue
                 n = gather(
-                    p, at, i, lane, filled, orders[lane], float(sign), limit, vanishing, phase != STICK, terms
+                    p, at, i, lane, filled, orders[lane], float(sign), limit, zeros, phase != STICK, terms
                 )
                 if n < 0:
                     if instants[lane, i] > 0.0:
