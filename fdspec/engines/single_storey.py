@@ -95,7 +95,7 @@ def integrate_single_storey(
     """Integrate a building of one storey.
 
     start: displacement and velocity of floor and brace, (2, 2, 1), m and m/s.  resume: the end of another
-    history, to go on from in place of the start.  radians: longest phase of a piece that is searched for
+    history, to go on from in place of the start.  radians: longest phase of a segment that is searched for
     roots; it moves no result.
     """
     run = Runner(building, motion, span, start, resume, radians)

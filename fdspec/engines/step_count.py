@@ -1,6 +1,6 @@
 """How many steps a history would take: told before it starts, for one that would never end is refused.
 
-Pieces of motion are at most a radian of whatever moves in them.  A brace of next to no mass, a weak dashpot
+Segments of motion are at most a radian of whatever moves in them.  A brace of next to no mass, a weak dashpot
 under a massless brace or a record step of many periods make so many of them that a history takes days.
 """
 
@@ -51,8 +51,8 @@ def steps_of_storeys(storeys: ArrayLike, dt: float, record_steps: int) -> FloatA
     floor = fastest_rate(m, c, k)
     parts = parts_of_storeys(storeys, dt)
     sliding = np.maximum(floor, fastest_rate(md, cd, kd))
-    pieces = np.maximum(1.0, np.ceil(sliding * dt / parts / RADIANS))
-    return np.asarray(record_steps * parts * np.where(np.isinf(force), 1.0, pieces))
+    segments = np.maximum(1.0, np.ceil(sliding * dt / parts / RADIANS))
+    return np.asarray(record_steps * parts * np.where(np.isinf(force), 1.0, segments))
 
 
 def parts_of_storeys(storeys: ArrayLike, dt: float) -> FloatArray:

@@ -21,7 +21,7 @@ ROOM = 256
 def strain_of_storeys(storeys: FloatArray, motion: GroundMotion, radians: float = RADIANS) -> FloatArray:
     """Integrate storeys (m, 8), rows of `fdspec.kernels.types.Storey`; return (m, len(STRAIN_RESULTS)).
 
-    radians: longest phase of a piece that is searched for roots; it moves no result.
+    radians: longest phase of a segment that is searched for roots; it moves no result.
     """
     results = np.empty((storeys.shape[0], len(STRAIN_RESULTS)))
     rows = np.ascontiguousarray(storeys, dtype=np.float64)

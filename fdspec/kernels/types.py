@@ -74,7 +74,7 @@ class Peaks(NamedTuple):
 
 
 class Force(NamedTuple):
-    """Force over mass at a piece's start and its rate: floor (or floor and brace as one), and brace."""
+    """Force over mass at a segment's start and its rate: floor (or floor and brace as one), and brace."""
 
     p0: float
     p1: float
@@ -115,9 +115,9 @@ PEAK_SLIP: Final = 21
 PEAK_BRACE: Final = 22
 N_STATE: Final = 23
 """Places in the state of a history: floor and brace; slip offset of the stick phase; phase; how the next
-piece begins (sliding acceleration of a new slip, side at which the reaction stands at the slip force);
+segment begins (sliding acceleration of a new slip, side at which the reaction stands at the slip force);
 peaks; work of the ground, of the dampers, of releases; u - d where the slip began, slip travel before it;
 counts; status; energy at the start; largest slip offset where slip began or stopped; largest brace force."""
 
 NO_KICK: Final = -1.0
-"""KICK where no slip begins with the next piece."""
+"""KICK where no slip begins with the next segment."""

@@ -89,7 +89,7 @@ def seconds_of_history(building: Building, dt: float, samples: float) -> float:
 
 
 def steps_per_sample(grid: Grid, dt: float) -> FloatArray:
-    """Steps that a history takes in each sample, (stiffness ratio, period), pieces of slip not counted."""
+    """Steps that a history takes in each sample, (stiffness ratio, period), segments of slip not counted."""
     steps = parts_of_storeys(_frames(grid), dt)
     return steps.reshape(grid.stiffness_ratio.size, grid.period.size)
 

@@ -29,7 +29,7 @@ def differences(cell: cells.Cell, one: Answer, other: Answer) -> list[str]:
 
 
 def finer(cell: cells.Cell, radians: float) -> Answer:
-    """One history with pieces of at most this phase (rad) searched for roots, without a trajectory."""
+    """One history with segments of at most this phase (rad) searched for roots, without a trajectory."""
     building = building_of(cell)
     motion = fdspec.GroundMotion(cell.acceleration, cell.dt)
     span = Span(0, motion.duration, 2)
@@ -50,7 +50,7 @@ def finer(cell: cells.Cell, radians: float) -> Answer:
     )
 
 
-def halve_pieces(numbers: range) -> list[str]:
+def halve_segments(numbers: range) -> list[str]:
     found = []
     for number in numbers:
         if number in cells.CHAOTIC:
@@ -103,11 +103,11 @@ def test_halving_the_steps_of_the_motion_on_two_thousand_cells() -> None:
 
 
 def test_halving_the_pieces_that_are_searched() -> None:
-    found = halve_pieces(FEW)
+    found = halve_segments(FEW)
     assert not found, "\n".join(found)
 
 
 @pytest.mark.slow
 def test_halving_the_pieces_that_are_searched_on_two_thousand_cells() -> None:
-    found = halve_pieces(ALL)
+    found = halve_segments(ALL)
     assert not found, "\n".join(found)

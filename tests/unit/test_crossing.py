@@ -1,4 +1,4 @@
-"""The verdict on a quantity from both ends of a piece, against the quantity itself."""
+"""The verdict on a quantity from both ends of a segment, against the quantity itself."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ def test_a_dip_of_any_depth_is_found_or_left_to_the_search() -> None:
 
 
 def test_few_quantities_leave_doubt() -> None:
-    """On pieces of a radian: the verdict is worth its while only where it is one."""
+    """On segments of a radian: the verdict is worth its while only where it is one."""
     rng = np.random.default_rng(5)
     found = [
         judged(course(phase, angle, level, slope))[0]

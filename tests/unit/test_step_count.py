@@ -34,8 +34,8 @@ def frame(**change: Any) -> fdspec.Building:
 @pytest.mark.parametrize("dt", [0.001, 0.02, 0.5])
 def test_the_steps_are_those_of_the_kernels(storey: Storey, dt: float) -> None:
     parts = steps_per_sample(storey, dt, RADIANS)
-    pieces = plan(storey, dt / parts, RADIANS).slip_steps if np.isfinite(storey.slip_force) else 1
-    assert steps_of_storeys(np.array(storey), dt, 7) == 7 * parts * pieces
+    segments = plan(storey, dt / parts, RADIANS).slip_steps if np.isfinite(storey.slip_force) else 1
+    assert steps_of_storeys(np.array(storey), dt, 7) == 7 * parts * segments
 
 
 def test_many_storeys_at_once() -> None:

@@ -1,4 +1,4 @@
-"""The largest magnitude on a piece by one step to its turn, against the search of the whole series."""
+"""The largest magnitude on a segment by one step to its turn, against the search of the whole series."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def oscillators(period: float, ratio: float) -> tuple[Branch, Branch]:
 
 
 def series(b: Branch, x: float, v: float, p0: float, p1: float, h: float) -> np.ndarray:
-    """Of displacement over the piece."""
+    """Of displacement over the segment."""
     c = np.zeros(TERMS)
     expand(c, 20, x, v, b.g, b.w2, p0, p1, h)
     return c

@@ -1,9 +1,9 @@
-"""The extremum of a quantity inside a piece, where the quantity turns there just once.
+"""The extremum of a quantity inside a segment, where the quantity turns there just once.
 
 A quantity is a weighted sum of the floor's displacement and velocity and of the brace's displacement; its
 velocity bears no force, for a brace with damping is left to the search.  Where the quantity's curvature keeps
 one sign it has at most one extremum.  That of the cubic through both ends is close, and the motion's own
-derivatives there lead to it, as they lead to a crossing (`zero_crossing.py`).  Other pieces are
+derivatives there lead to it, as they lead to a crossing (`zero_crossing.py`).  Other segments are
 searched (`polynomial_roots.py`).
 """
 
@@ -63,7 +63,7 @@ def weighed(w, r, q):
 
 @inner
 def top_inside(floor, brace, n, rings, w, start, end, force, h, fourth, best):
-    """The greater of ``best`` and the quantity's largest magnitude on a piece; and whether that is sure.
+    """The greater of ``best`` and the quantity's largest magnitude on a segment; and whether that is sure.
 
     floor, brace: the oscillators that move; n: order of the floor's series; rings: whether the brace has part
     in the quantity: it then has mass and no damping.  fourth: a bound on h^4 times the quantity's fourth

@@ -259,7 +259,7 @@ def sine_cosine(x):
 def undamped_ahead(x, v, omega, slowness, p0, p1, h):
     """The same for g = 0 in closed form; half angles leave no cancellation beyond that of p1's share.
 
-    slowness: 1 / omega, s; h: at most 2 SHORT_ANGLE of phase, which holds a whole piece.
+    slowness: 1 / omega, s; h: at most 2 SHORT_ANGLE of phase, which holds a whole segment.
     """
     sine, cosine = sine_cosine(0.5 * omega * h)
     w2 = omega * omega

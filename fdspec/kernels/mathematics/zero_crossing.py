@@ -1,6 +1,6 @@
-"""A quantity's first zero on a piece, from its values and derivatives at both ends.
+"""A quantity's first zero on a segment, from its values and derivatives at both ends.
 
-Most pieces need no series: bounds clear them, or its curvature keeps one sign and values at the ends
+Most segments need no series: bounds clear them, or its curvature keeps one sign and values at the ends
 tell that the quantity crosses zero once.  One that dips between its ends is judged at the bottom of the
 cubic through both of them: above zero by more than that may be off, it stays positive; below, it crosses
 once on its way there.  Newton's method on the cubic then lands next to the crossing, and the motion's own
@@ -37,7 +37,7 @@ ATTEMPTS = 6
 
 
 class Course(NamedTuple):
-    """A quantity on a piece of length h: its value, slope times h, curvature times h^2 at both ends."""
+    """A quantity on a segment of length h: its value, slope times h, curvature times h^2 at both ends."""
 
     start: float
     start_rise: float
@@ -52,14 +52,14 @@ class Course(NamedTuple):
 
 
 class Fall(NamedTuple):
-    """The first part of a piece, on which a quantity falls through zero: its value and rise at both ends."""
+    """The first part of a segment, on which a quantity falls through zero: its value and rise at both ends."""
 
     start: float
     start_rise: float
     end: float
     end_rise: float
     share: float
-    """Of the piece: all of it, or up to the bottom of a dip."""
+    """Of the segment: all of it, or up to the bottom of a dip."""
 
 
 class Rates(NamedTuple):
@@ -88,7 +88,7 @@ def cubic(start, start_rise, end, end_rise):
 
 @inlined
 def lowest(start, start_rise, end, end_rise):
-    """Fraction of a piece at which a cubic that falls at the start and rises at the end is lowest."""
+    """Fraction of a segment at which a cubic that falls at the start and rises at the end is lowest."""
     square, cube = cubic(start, start_rise, end, end_rise)
     spread = fma(square, square, -3.0 * cube * start_rise)
     x = -start_rise / (square + math.sqrt(max(spread, 0.0)))
@@ -97,7 +97,7 @@ def lowest(start, start_rise, end, end_rise):
 
 @inlined
 def verdict(course):
-    """Whether the quantity stays positive on the piece, crosses zero once, or neither is sure."""
+    """Whether the quantity stays positive on the segment, crosses zero once, or neither is sure."""
     margin = BEND_OFF * course.fourth
     bends_down = max(course.start_bend, course.end_bend) + margin < 0.0
     bends_up = min(course.start_bend, course.end_bend) - margin > 0.0
@@ -114,7 +114,7 @@ def verdict(course):
 
 @inlined
 def fall_of(course):
-    """The `Fall` of a quantity that crosses zero once on the piece."""
+    """The `Fall` of a quantity that crosses zero once on the segment."""
     return Fall(course.start, course.start_rise, course.end, course.end_rise, 1.0)
 
 
@@ -162,7 +162,7 @@ def leaves_zero(rise, bend, twist, fourth, noise):
 
 @inlined
 def guess(fall):
-    """Fraction of the piece at which the quantity crosses zero, nearly: where the cubic does."""
+    """Fraction of the segment at which the quantity crosses zero, nearly: where the cubic does."""
     square, cube = cubic(fall.start, fall.start_rise, fall.end, fall.end_rise)
     # From the chord, or in a dip from the parabola, which is level at its end.
     x = fall.start / (fall.start - fall.end)
@@ -200,7 +200,7 @@ def nearby(r, t):
 def falls(t, y1, y2, y3):
     """Whether a quantity falls through its zero a short time t away.
 
-    One that starts above zero and rises there crosses it for the second time: at the end of a piece that may
+    One that starts above zero and rises there crosses it for the second time: at the end of a segment that may
     be all that rounding shows of the first.
     """
     return fma(t, fma(t, HALF * y3, y2), y1) < 0.0
