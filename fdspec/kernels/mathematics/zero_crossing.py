@@ -52,7 +52,7 @@ class Course(NamedTuple):
 
 
 class Fall(NamedTuple):
-    """The first part of a segment, on which a quantity falls through zero: its value and rise at both ends."""
+    """The first part of a segment, where a quantity falls through zero: its value and rise at both ends."""
 
     start: float
     start_rise: float
@@ -200,7 +200,7 @@ def nearby(r, t):
 def falls(t, y1, y2, y3):
     """Whether a quantity falls through its zero a short time t away.
 
-    One that starts above zero and rises there crosses it for the second time: at the end of a segment that may
+    One that starts above zero and rises there crosses it for the second time: at a segment's end that may
     be all that rounding shows of the first.
     """
     return fma(t, fma(t, HALF * y3, y2), y1) < 0.0
