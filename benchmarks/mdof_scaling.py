@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.table import seconds, show
-from fdspec.kernels.frame.history import integrate
+from fdspec.kernels.frame.entry import integrate
 from fdspec.kernels.frame.output import STOREY_TRACES, TOTAL_TRACES
 from fdspec.kernels.frame.results import RADIANS, STOREY_RESULTS, TOTALS
 from fdspec.model.building import Building, ModalDamping, RayleighDamping

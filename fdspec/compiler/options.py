@@ -1,7 +1,7 @@
 """The only place that sets numba options, each with its reason.
 
-Two decorators: ``inner`` for the small rules that kernels are made of, ``entry`` for the few
-functions that Python calls.
+Three decorators: ``inner`` for the small rules that kernels are made of, ``maker`` for what makes their
+arrays, ``entry`` for the few functions that Python calls.
 
 nogil          dask's threads run kernels side by side; a scheduler's heartbeat goes on beside them.
 error_model    "numpy": a division by zero gives inf or nan, which ends in a status, not in a raise.
@@ -91,6 +91,12 @@ def inner(function: Function) -> Function:
 def inlined(function: Function) -> Function:
     """Compile a rule of the time loop; a call would copy its tuples of constants onto the stack."""
     compiled: Function = numba.njit(_nrt=False, forceinline=True, no_cfunc_wrapper=True, **OPTIONS)(function)
+    return compiled
+
+
+def maker(function: Function) -> Function:
+    """Compile what makes arrays, or views of them, for an entry: it hands them back counted."""
+    compiled: Function = numba.njit(no_cfunc_wrapper=True, **OPTIONS)(function)
     return compiled
 
 

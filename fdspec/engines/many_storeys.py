@@ -8,7 +8,7 @@ import numpy as np
 
 from fdspec.engines.trajectory import FloatArray, IntArray, Span, Trajectory
 from fdspec.errors import InvalidInput
-from fdspec.kernels.frame.history import integrate
+from fdspec.kernels.frame.entry import integrate
 from fdspec.kernels.frame.model import BRACE_MASS, SLIP_FORCE, held_rates, rate_of, slip_norms
 from fdspec.kernels.frame.output import STOREY_TRACES, TOTAL_TRACES
 from fdspec.kernels.frame.results import END, END_ROWS, RADIANS, STOREY_RESULTS, TOTALS

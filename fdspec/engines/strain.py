@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from fdspec.kernels.frame.entry import integrate_frame_strain
 from fdspec.kernels.frame.results import RADIANS as FRAME_RADIANS
-from fdspec.kernels.frame.strain import integrate_frame_strain
 from fdspec.kernels.storey.constants import RADIANS
 from fdspec.kernels.storey.strain import STRAIN_RESULTS, integrate_strain
 from fdspec.model.building import Frame

@@ -26,6 +26,7 @@ from fdspec.model.building_grid import BuildingGrid
 from fdspec.model.grid import FloatArray, axis
 from fdspec.model.motion import GroundMotion
 from fdspec.model.toml_lines import parsed
+from fdspec.runs.building_cube import DEMANDS, ON_REQUEST, OUTPUTS
 from fdspec.runs.study import (
     STUDY_RECORDS,
     RecordFile,
@@ -45,7 +46,6 @@ from fdspec.runs.study import (
     text_of,
     unknown_records,
 )
-from fdspec.runs.sweep_buildings import DEMANDS, ON_REQUEST, OUTPUTS
 
 BUILDINGS: Final = "buildings"
 """The field that makes a study one of buildings."""

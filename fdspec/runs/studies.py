@@ -11,6 +11,7 @@ import fdspec.runs.sweep as of_frames
 import fdspec.runs.sweep_buildings as of_buildings
 from fdspec.model.grid import GRID_FIELDS
 from fdspec.model.motion import GroundMotion
+from fdspec.runs import building_cube
 from fdspec.runs.building_study import BuildingStudy
 from fdspec.runs.cost import seconds_of_sweep
 from fdspec.runs.cube import chosen
@@ -59,7 +60,7 @@ def outputs_of(study: AnyStudy) -> tuple[str, ...]:
         usual = of_frames.usual_outputs(study.grid)
         known = (*usual, *of_frames.ON_REQUEST)
     else:
-        usual, known = of_buildings.usual_outputs(study.grid), of_buildings.known_outputs(study.grid)
+        usual, known = building_cube.usual_outputs(study.grid), building_cube.known_outputs(study.grid)
     return chosen(usual if study.outputs is None else study.outputs, known, study.certify)
 
 
@@ -68,7 +69,7 @@ def parameters(study: AnyStudy) -> dict[str, object]:
     outputs = outputs_of(study)
     if isinstance(study, Study):
         return {**study.grid.parameters, "certify": study.certify, "outputs": list(outputs)}
-    return of_buildings.parameters_of(study.grid, outputs, study.certify)
+    return building_cube.parameters_of(study.grid, outputs, study.certify)
 
 
 def expected(study: AnyStudy, motions: Motions) -> float:
@@ -126,5 +127,5 @@ def planned(study: AnyStudy, motions: Motions) -> Planned:
         len(motions) * study.grid.intensities.size * n_b * n_k * n_s,
         of_buildings.measured(motions, study.grid, study.certify, outputs_of(study)),
         None,
-        sum(of_buildings.bytes_of(motions, study.grid, outputs).values()),
+        sum(building_cube.bytes_of(motions, study.grid, outputs).values()),
     )

@@ -13,7 +13,7 @@ import xarray as xr
 
 import fdspec
 from fdspec.errors import InvalidInput
-from fdspec.runs.sweep_buildings import ON_REQUEST, OUTPUTS
+from fdspec.runs.building_cube import ON_REQUEST, OUTPUTS
 
 AXES: dict[str, Any] = {"slip_scale": [0.0, 0.3, 1.0, np.inf], "stiffness_scale": [0.5, 1.0, 3.0]}
 COUNTED = ("status", "transitions", "storey_transitions")

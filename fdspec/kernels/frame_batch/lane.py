@@ -159,7 +159,7 @@ def is_finite(p, block, size, lane):
 def finish(
     p, size, lane, frame, stiffness, phase, state, tally, transitions, status, certify, by_storey, totals
 ):
-    """Fill a history's results, as `fdspec.kernels.frame.history.integrate` does, from the rows END."""
+    """Fill a history's results, as `fdspec.kernels.frame.entry.integrate` does, from the rows END."""
     take_state(p, END, size, lane, state)
     for r in range(PEAKS):
         for i in range(size):
