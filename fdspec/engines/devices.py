@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from fdspec.engines.trajectory import DeviceCourse, FloatArray, IntArray, Span, TrajectoryWithDevices
+from fdspec.engines.trajectory import DeviceTrajectory, FloatArray, IntArray, Span, TrajectoryWithDevices
 from fdspec.kernels.devices import layout as row
 from fdspec.kernels.devices.history import RADIANS, TOTALS, integrate
 from fdspec.kernels.devices.output import FLOOR_TRACES, LINK_TRACES, TOTAL_TRACES
@@ -236,7 +236,7 @@ def _trajectory(
     drift = np.diff(floor["displacement"], axis=1, prepend=0.0)
     elastic = np.where(columns >= 0, building.hardening_ratio, 1.0) * frame_stiffness(building)
     storey = int(totals["collapse_storey"])
-    devices = DeviceCourse(
+    devices = DeviceTrajectory(
         brace_force=_of_storeys(link["force"], dampers),
         column_shear=elastic * drift + _of_storeys(link["force"], columns),
         plastic_deformation=_of_storeys(link["offset"], columns),

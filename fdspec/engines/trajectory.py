@@ -57,7 +57,7 @@ class Trajectory:
 
 
 @dataclass(frozen=True)
-class DeviceCourse:
+class DeviceTrajectory:
     """What devices add to a history; over time (m,), (m, N) and (m, L), else (N,) and (L,)."""
 
     brace_force: FloatArray
@@ -93,7 +93,7 @@ class DeviceCourse:
 class TrajectoryWithDevices(Trajectory):
     """One history of a building with devices."""
 
-    devices: DeviceCourse = field(kw_only=True)
+    devices: DeviceTrajectory = field(kw_only=True)
 
 
 @dataclass(frozen=True)

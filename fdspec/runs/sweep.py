@@ -18,7 +18,7 @@ from fdspec.errors import InvalidInput
 from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.model.grid import Grid
 from fdspec.model.motion import GroundMotion
-from fdspec.runs.after import After, zero_or_positive
+from fdspec.runs.after import NOTHING, After, zero_or_positive
 from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long
 from fdspec.runs.columns import DEMANDS, STRAIN, Columns, demands_of, rows_of, run_columns, warm
 from fdspec.runs.cost import seconds_of_sweep
@@ -99,7 +99,7 @@ def sweep(
     """Compute the cube: peaks of a single-storey frame over record, stiffness ratio, pretension and period.
 
     Each history is integrated exactly, event by event, under a ground acceleration that is linear
-    between samples; see `fdspec.simulate` for one of them with its trajectory.
+    between samples; see `fdspec.simulate` for one of them with its time series.
 
     Parameters
     ----------
@@ -202,23 +202,12 @@ def sweep(
     wanted = chosen(usual if outputs is None else outputs, (*usual, *ON_REQUEST), certify)
     strain = [name for name in wanted if BARE.get(name, name) in STRAIN]
     other = chosen_method(method)
-    if strain and other is not None:
-        raise InvalidInput(f"outputs {', '.join(strain)} need method 'exact', got {other.name!r}")
-    if grid.devices and (strain or other is not None):
-        what = f"method {other.name!r}" if other is not None else f"outputs {', '.join(strain)}"
-        raise InvalidInput(f"{what}: not for frames with {', '.join(grid.devices)}")
+    after = After(zero_or_positive("free_vibration", free_vibration), at_rest)
+    refuse_together(grid, other, strain, after)
     n_sr, n_f, n_t = grid.shape
     seconds = seconds_of_sweep(grid, motions, certify)
     refuse_endless(motions, grid, wanted, sum(seconds), store)
     warn_of_units(motions, period=grid.period, slip_force=grid.slip_force, floor_mass=grid.floor_mass)
-    after = After(zero_or_positive("free_vibration", free_vibration), at_rest)
-    if strain and (free_vibration or at_rest):
-        raise InvalidInput(
-            f"outputs {', '.join(strain)} end with the motion: not with free_vibration or at_rest"
-        )
-    if at_rest and (other is not None or grid.devices):
-        what = f"method {other.name!r}" if other is not None else "frames with devices"
-        raise InvalidInput(f"at_rest is for the exact method and dampers alone, not for {what}")
     run = partial(run_columns, grid, certify, bool(strain), other, after=after)
     fan = partial(
         fan_out,
@@ -233,14 +222,7 @@ def sweep(
     registry = registry_for(grid)
     cube_of = partial(
         assemble,
-        axes={
-            "stiffness_ratio": grid.stiffness_ratio,
-            "pretension": grid.pretension,
-            "period": grid.period,
-            "slip_force": grid.slip_force,
-            "kinetic_slip_force": grid.kinetic_slip_force,
-            **({} if grid.intensity is None else {"intensity": grid.intensity}),
-        },
+        axes=_axes(grid),
         registry=registry,
         motions=motions,
         title="Peak response of single-storey frames with friction dampers",
@@ -272,6 +254,33 @@ def sweep(
         )
     tasks = plan(n_sr * n_t, seconds, columns_per_task, "columns_per_task")
     return cube_of(_variables(grid, len(motions), tasks, fan(run, tasks=tasks), wanted))
+
+
+def refuse_together(grid: Grid, method: Method | None, strain: Sequence[str], after: After) -> None:
+    """Raise InvalidInput for what cannot be had together: strain energy, devices, other methods, rest."""
+    energies = f"outputs {', '.join(strain)}"
+    other = "" if method is None else f"method {method.name!r}"
+    if strain and method is not None:
+        raise InvalidInput(f"{energies} need method 'exact', got {method.name!r}")
+    if grid.devices and (strain or method is not None):
+        raise InvalidInput(f"{other or energies}: not for frames with {', '.join(grid.devices)}")
+    if strain and after != NOTHING:
+        raise InvalidInput(f"{energies} end with the motion: not with free_vibration or at_rest")
+    if after.at_rest and (method is not None or grid.devices):
+        what = other or "frames with devices"
+        raise InvalidInput(f"at_rest is for the exact method and dampers alone, not for {what}")
+
+
+def _axes(grid: Grid) -> dict[str, object]:
+    """Return the coordinates of this grid's cube."""
+    axes: dict[str, object] = {
+        "stiffness_ratio": grid.stiffness_ratio,
+        "pretension": grid.pretension,
+        "period": grid.period,
+        "slip_force": grid.slip_force,
+        "kinetic_slip_force": grid.kinetic_slip_force,
+    }
+    return axes if grid.intensity is None else {**axes, "intensity": grid.intensity}
 
 
 def bytes_of(motions: Sequence[GroundMotion], grid: Grid, outputs: Iterable[str]) -> dict[str, int]:

@@ -83,7 +83,7 @@ def sweep_buildings(
     """Compute the cube of buildings: peaks of every storey over record, building and two factors on dampers.
 
     Each history is integrated exactly, event by event, under a ground acceleration that is linear
-    between samples; see `fdspec.simulate` for one of them with its trajectory.
+    between samples; see `fdspec.simulate` for one of them with its time series.
 
     Parameters
     ----------
