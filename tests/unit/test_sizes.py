@@ -17,15 +17,14 @@ KERNEL_BODY = 129
 KERNEL_ARGUMENTS = 20
 
 PUBLIC = "the public face: keywords that a user reads in one place, each with its default"
-TIME_LOOP = "a time loop: its state stays in registers, and what it calls is named steps"
+TIME_LOOP = "a time loop, from one event to the next: what it calls are the named steps"
 BUNDLED = "within a time loop, where bundles of arrays cost 8 to 20 % at one to four storeys"
-HANDED = "what Python hands to a kernel one by one: numba caches no NamedTuple of arrays in a signature"
+HANDED = "an entry: what Python hands over, array by array"
 
 LONG = {
     "cli/choose.py choose": "a command: its options, one call, and what becomes of the outcome",
     "report/page.py page": "a page: its parts in the order in which they are read",
     "kernels/bilinear/history.py history": TIME_LOOP,
-    "kernels/devices/history.py history": TIME_LOOP,
     "kernels/frame/history.py history": TIME_LOOP,
     "kernels/frame_batch/entry.py run": TIME_LOOP,
     "kernels/storey/step.py walk": TIME_LOOP,
