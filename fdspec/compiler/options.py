@@ -60,7 +60,7 @@ def record_of(cls: type) -> types.Type:
 def source_key() -> str:
     """Name of the kernels' source and of the compiler: changes when any of their files does."""
     digest = hashlib.sha256(numba.__version__.encode())
-    for path in sorted([*KERNELS.rglob("*.py"), Path(__file__)]):
+    for path in sorted([*KERNELS.rglob("*.py"), *Path(__file__).parent.glob("*.py")]):
         digest.update(path.relative_to(KERNELS.parent).as_posix().encode())
         digest.update(path.read_bytes())
     return digest.hexdigest()[:16]

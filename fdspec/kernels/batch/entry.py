@@ -12,6 +12,7 @@ import numpy as np
 from numba import types
 
 from fdspec.compiler.options import entry, float1d, float2d, ground1d, int1d, lowest
+from fdspec.compiler.records import read, write
 from fdspec.kernels.batch.deferred_peaks import (
     N_BRACE,
     N_CREST,
@@ -33,7 +34,7 @@ from fdspec.kernels.batch.layout import (
     start_lane,
     take_state,
 )
-from fdspec.kernels.batch.shelf import put_numbers, put_plan, take_plan
+from fdspec.kernels.batch.shelf import Stride, put_plan, take_plan
 from fdspec.kernels.batch.uneventful import loss_lanes, slip_lanes, stick_lanes
 from fdspec.kernels.mathematics.oscillator import TERMS, step_map
 from fdspec.kernels.storey.constants import plan, steps_per_sample
@@ -54,13 +55,12 @@ def prepare(storeys, dt, radians, certify, parts, shelf, forms, stride):
     stride (m, N_STRIDE).
     """
     for i in range(storeys.shape[0]):
-        s = storeys[i]
-        storey = Storey(s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7])
+        storey = read(Storey, storeys, i)
         parts[i] = steps_per_sample(storey, dt, radians)
         scheme = plan(storey, dt / parts[i], radians)
         put_plan(shelf, i, scheme)
-        put_numbers(stride, i, 0, step_map(scheme.floor.g, scheme.floor.w2, scheme.step))
-        put_numbers(stride, i, 12, step_map(scheme.brace.g, scheme.brace.w2, scheme.step))
+        floor_map = step_map(scheme.floor.g, scheme.floor.w2, scheme.step)
+        write(stride, i, Stride(floor_map, step_map(scheme.brace.g, scheme.brace.w2, scheme.step)))
         forms[i] = 0.0
         if certify:
             put_losses(scheme, forms[i])

@@ -16,6 +16,7 @@ from numba import types
 
 from fdspec.compiler.options import entry, float1d, float2d, ground1d, inner, int1d
 from fdspec.compiler.positions import positions
+from fdspec.compiler.records import read
 from fdspec.kernels.mathematics.oscillator import TERMS, advance, area, expand, square_integral
 from fdspec.kernels.mathematics.polynomial_roots import largest_magnitude, value_slope
 from fdspec.kernels.mathematics.quadrature import series_area, square_form
@@ -308,9 +309,8 @@ def integrate_strain(storeys, ground, dt, radians, phases, times, results):
     floor, brace, out = np.empty(TERMS), np.empty(TERMS), np.empty(TERMS)
     busiest = 0
     for i in range(storeys.shape[0]):
-        r = storeys[i]
         found = strain_of_history(
-            Storey(r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7]),
+            read(Storey, storeys, i),
             ground,
             dt,
             radians,
