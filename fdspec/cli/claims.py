@@ -36,7 +36,7 @@ BOLT_FACTOR: Final = 2.0
 @click.option("--markdown", "form", flag_value="markdown", help="Tables for a Markdown page.")
 @click.option("--json", "form", flag_value="json", help="Shares and verdicts as JSON.")
 def claims(cube: str, factor: float, form: str | None) -> None:
-    """Put the study's conclusions to a cube: each with the number that decides it, per record.
+    """Check the study's conclusions against a cube: each with the number that decides it, per record.
 
     A claim falls into parts, sentences about cells of the cube. The number is the share of cells, in percent,
     that do what the sentence says: from 90 on it holds (+), from 50 on in part (~), else it does not (-).

@@ -22,7 +22,7 @@ COMMANDS = {
     ),
     "records": ("fdspec.cli.records:records", "List, show, check, convert and draw ground motions."),
     "figures": ("fdspec.cli.figures:figures", "Draw the study's figures, or the profiles of buildings."),
-    "claims": ("fdspec.cli.claims:claims", "Put the study's conclusions to a cube."),
+    "claims": ("fdspec.cli.claims:claims", "Check the study's conclusions against a cube."),
     "verify": ("fdspec.cli.verify:verify", "Verify this installation: known answers beside computed ones."),
     "explore": ("fdspec.cli.explore:explore", "Show a cube in the browser, with histories at a click."),
     "export": (

@@ -12,8 +12,7 @@ signatures     entries are compiled for one explicit signature: nothing compiles
                another type.
 wide vectors   on most processors that have vectors of 512 bits LLVM uses 256, since the wide ones may
                slow down what runs beside them; loops over lanes are little else, and ask for them.
-seldom         long searches that few steps need are called, not copied to all their places: a quarter of
-               the time to compile.
+seldom         long searches that few steps need are not inlined: that saves a quarter of the time to compile.
 fused          a product and a sum in one instruction, where a formula says so by ``fma``: rounded once on
                every processor, so that the same bits come of it everywhere.  The compiler's own leave to
                fuse would give a history other bits beside neighbours than alone.

@@ -41,7 +41,7 @@ CLAIMS: Final = {
 
 
 def study_claims(cube: xr.Dataset, *, normal_force_factor: float = 1.0) -> xr.Dataset:
-    """Put the study's conclusions to a cube, record by record.
+    """Check the study's conclusions against a cube, record by record.
 
     Parameters
     ----------

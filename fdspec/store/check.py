@@ -1,4 +1,4 @@
-"""What can be said of a cube on disk without computing it again: is it whole, and is in it what should be?"""
+"""What can be said of a cube on disk without computing it again: is it complete and plausible?"""
 
 from __future__ import annotations
 

@@ -134,7 +134,7 @@ def returns_at_once(frame, kind, phase, state, i):
 
 @inner
 def stay_sprung(phase, vanishing, touching, state, tally, i):
-    """Make such a storey stick where its brace sprang to."""
+    """Let such a storey stick at the offset to which its brace has sprung back."""
     close_travel(state, tally, i, phase[i])
     touching[i] = phase[i]
     vanishing[i] = 1
