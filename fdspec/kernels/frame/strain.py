@@ -1,9 +1,8 @@
 """Strain energy of a frame of N storeys: its area under the history and its maximum.
 
 The energy is that of Filiatrault and Cherry's index, elastic and in every member, frame and braces alike.
-The frame is stepped by `history.py`.  On a
-step U is a polynomial: its integral is a Gauss quadrature, exact to rounding, and its maximum is looked for
-only where the reach of all drifts and stretches leaves room for one.
+On a step of `history.py` U is a polynomial: its integral is a Gauss quadrature, exact to rounding, and its
+maximum is searched only where the reach of all drifts and stretches leaves room for one.
 """
 
 from __future__ import annotations
