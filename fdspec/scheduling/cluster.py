@@ -237,10 +237,10 @@ def _outcome(company: _Company, future: Future[Any]) -> Any:
             return future.result(timeout=SILENCE)
         except TimeoutError:
             company.look_after_silence()
-        except Exception as error:
+        except Exception as lost:
             if future.status == "error":
                 continue
-            if isinstance(error, (OSError, CancelledError)):
+            if isinstance(lost, (OSError, CancelledError)):
                 break
             raise
     raise _SchedulerLostError
