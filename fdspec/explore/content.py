@@ -82,6 +82,7 @@ class Content:
                     "best": index.best,
                     "searched": bool(index.measure),
                     "colours": list(index.colours),
+                    "neutral": index.neutral,
                 }
                 for index in self.indices
             ],

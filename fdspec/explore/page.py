@@ -11,7 +11,7 @@ from typing import Final
 
 from fdspec.explore.content import Content, embedded
 
-SCRIPTS: Final = ("numbers.js", "best.js", "words.js", "plots.js", "histories.js", "downloads.js", "page.js")
+SCRIPTS: Final = ("units.js", "numbers.js", "best.js", "words.js", "plots.js", "histories.js", "downloads.js", "page.js")
 """In the order of their use; together they are one script."""
 
 SKETCH: Final = (

@@ -49,7 +49,12 @@ function saveNumbers(picture) {
 }
 
 function named(index) {
-  return index.unit ? `${index.name}_${index.unit.replace("%", "percent").replace("/", "_per_")}` : index.name;
+  return index.unit ? `${index.name}_${spelt(index.unit)}` : index.name;
+}
+
+// A unit as a program takes it: m_per_s2, percent_g.
+function spelt(unit) {
+  return unit.replace("%", "percent").replace("/", "_per_").replace("²", "2").replace(/\s/, "_");
 }
 
 function mapNumbers(s, index, numbers) {
@@ -59,11 +64,11 @@ function mapNumbers(s, index, numbers) {
       rows.push([AXES.stiffness_ratio[s.ratio], AXES.pretension[f], AXES.slip_force[f], AXES.period[t], cell(numbers[index.name], s.ratio, f, t)]);
     }
   }
-  return { heads: ["stiffness_ratio", "pretension_kN", "slip_force_kN", "period_s", named(index)], rows };
+  return { heads: ["stiffness_ratio", `pretension_${FORCE}`, `slip_force_${FORCE}`, "period_s", named(index)], rows };
 }
 
 function sliceNumbers(s, index, shown) {
-  const heads = ["pretension_kN", ...shown.map(({ k }) => `${about.records[k].name}_${named(index)}`)];
+  const heads = [`pretension_${FORCE}`, ...shown.map(({ k }) => `${about.records[k].name}_${named(index)}`)];
   const rows = AXES.pretension.map((force, f) => [force, ...shown.map(({ numbers }) => cell(numbers[index.name], s.ratio, f, s.period))]);
   return { heads, rows };
 }
@@ -72,8 +77,8 @@ function bestNumbers(s, index, shown) {
   const lines = shown.map(({ k, numbers }) => ({ name: about.records[k].name, k, between: searchedEverywhere(s, k), ...bestLine(s, index, numbers, k) }));
   const heads = ["period_s"], rows = AXES.period.map((period) => [period]);
   for (const { name, k, between, x, y, z } of lines) {
-    heads.push(`${name}_best_pretension_kN`, `${name}_${named(index)}`);
-    if (between) heads.push(`${name}_band_start_kN`, `${name}_band_end_kN`);
+    heads.push(`${name}_best_pretension_${FORCE}`, `${name}_${named(index)}`);
+    if (between) heads.push(`${name}_band_start_${FORCE}`, `${name}_band_end_${FORCE}`);
     AXES.period.forEach((period, t) => {
       const at = x.indexOf(period), told = searchedAt(s, k, t);
       rows[t].push(at < 0 ? null : y[at], at < 0 ? null : z[at]);
@@ -84,8 +89,8 @@ function bestNumbers(s, index, shown) {
 }
 
 function historyNumbers(history) {
-  const units = { time: "s", displacement: "mm", brace_displacement: "mm", friction_force: "kN", acceleration: "g", ground_acceleration: "g" };
-  const names = Object.keys(units);
+  const units = { time: "s", ...Object.fromEntries(Object.entries(TRACES).map(([name, sent]) => [name, unitFor(sent)])) };
+  const names = ["time", "displacement", "brace_displacement", "friction_force", "acceleration", "ground_acceleration"];
   const rows = Array.from(history.arrays.time, (_, k) => names.map((name) => history.arrays[name][k]));
-  return { heads: names.map((name) => `${name}_${units[name]}`), rows };
+  return { heads: names.map((name) => `${name}_${spelt(units[name])}`), rows };
 }

@@ -1,7 +1,7 @@
 // Numbers: unpacked from bytes, sliced, and written for people.
 
 const about = JSON.parse(document.getElementById("about").textContent);
-const AXES = about.axes;
+const AXES = { ...about.axes };
 const SIZES = { ratio: AXES.stiffness_ratio.length, force: AXES.pretension.length, period: AXES.period.length };
 
 // The counterpart of fdspec/explore/packing.py.
@@ -41,13 +41,46 @@ async function recordBytes(k) {
 }
 
 const records = new Map();
-function recordNumbers(k) {
+function sentNumbers(k) {
   if (!records.has(k)) {
     const coming = recordBytes(k).then(gunzip).then((buffer) => unpack(buffer).arrays);
     coming.catch(() => records.delete(k));
     records.set(k, coming);
   }
   return records.get(k);
+}
+
+// A record's numbers in the units of the page, kept until those change.
+const inUnits = new Map();
+function recordNumbers(k) {
+  if (!inUnits.has(k)) {
+    const coming = sentNumbers(k).then((arrays) => {
+      const shown = { ...arrays };
+      for (const index of about.indices) shown[index.name] = allShownIn(arrays[index.name], index.sent);
+      for (const name of ["bare", "braced"]) if (name in arrays) shown[name] = allShownIn(arrays[name], "g");
+      return shown;
+    });
+    coming.catch(() => inUnits.delete(k));
+    inUnits.set(k, coming);
+  }
+  return inUnits.get(k);
+}
+
+for (const index of about.indices) index.sent = index.unit;
+
+// Everything that stands in a unit, in those chosen now.
+let FORCE, LENGTH, ACCELERATION;
+function applyUnits() {
+  inUnits.clear();
+  [FORCE, LENGTH, ACCELERATION] = ["kN", "mm", "g"].map(unitFor);
+  for (const name of ["pretension", "slip_force"]) AXES[name] = about.axes[name].map((v) => shortest(shownIn(v, "kN")));
+  for (const index of about.indices) index.unit = unitFor(index.sent);
+  FIELDS.find((field) => field.name === "pretension").unit = FORCE;
+}
+
+// 0.11 MN, not 0.11000000000000001.
+function shortest(value) {
+  return Number(value.toPrecision(15));
 }
 
 // The numbers that the page has a field for; those of the frame hold for the whole cube.
@@ -58,6 +91,7 @@ const FIELDS = [
     return told ? [{ name, title: told.title, unit: told.unit, value: told.value, own: true }] : [];
   }),
 ];
+applyUnits();
 
 // Values of the point: the cube's at the sliders, or those that were typed.
 function pointOf(s) {
@@ -81,7 +115,8 @@ function slice(values, ratio) {
 }
 
 // Bounds and step of the colours: round numbers, from 0 or below to the largest value, but not beyond [least, most].
-function scaleOf(arrays, [least, most]) {
+// Where there is a neutral value, as far below it as above, and a bound of colour at it.
+function scaleOf(arrays, [least, most], neutral = null) {
   let low = 0, high = -Infinity;
   for (const values of arrays) {
     for (const v of values) {
@@ -92,8 +127,13 @@ function scaleOf(arrays, [least, most]) {
   low = Math.max(low, least ?? -Infinity);
   high = Math.min(high, most ?? Infinity);
   if (!(high > low)) high = low + 1;
-  const rough = (high - low) / 18, power = 10 ** Math.floor(Math.log10(rough));
+  const half = neutral === null ? 0 : Math.max(high - neutral, neutral - low) || 1;
+  const rough = half ? half / 9 : (high - low) / 18, power = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 2.5, 5, 10].map((m) => m * power).find((m) => m >= rough * 0.999);
+  if (half) {
+    const steps = Math.ceil(half / step - 1e-9);
+    return { low: neutral - steps * step, high: neutral + steps * step, step, neutral };
+  }
   return { low: Math.floor(low / step) * step, high: Math.ceil(high / step - 1e-9) * step, step };
 }
 

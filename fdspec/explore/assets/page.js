@@ -15,6 +15,8 @@ const histories = new Map();
 
 function fromAddress() {
   const told = new URLSearchParams(location.hash.slice(1)), found = { ...USUAL };
+  unitsFrom(told);
+  applyUnits();
   const names = about.records.map((r) => r.name);
   const place = (list, name) => list.indexOf(told.get(name));
   if (place(names, "record") >= 0) found.record = place(names, "record");
@@ -22,8 +24,9 @@ function fromAddress() {
   if (place(about.indices.map((index) => index.name), "index") >= 0) found.index = place(about.indices.map((index) => index.name), "index");
   const free = {};
   for (const [key, name] of [["period", "period"], ["ratio", "stiffness_ratio"], ["force", "pretension"]]) {
-    const value = numberOf(told.get(name));
-    if (value === null) continue;
+    const sent = numberOf(told.get(name));
+    if (sent === null) continue;
+    const value = name === "pretension" ? shortest(shownIn(sent, "kN")) : sent;
     found[key] = nearest(AXES[name], value);
     if (Math.abs(AXES[name][found[key]] - value) > 1e-9 * Math.abs(value)) free[name] = value;
   }
@@ -44,8 +47,9 @@ function numberOf(text) {
 function addressOf(s) {
   const at = pointOf(s), told = { record: about.records[s.record].name, index: about.indices[s.index].name };
   if (s.compare >= 0) told.compare = about.records[s.compare].name;
-  for (const name of ["stiffness_ratio", "period", "pretension"]) told[name] = at[name];
+  for (const name of ["stiffness_ratio", "period", "pretension"]) told[name] = name === "pretension" ? sentFrom(at[name], "kN") : at[name];
   for (const field of FIELDS) if (field.own && s.free && s.free[field.name] !== field.value) told[field.name] = s.free[field.name];
+  unitsInto(told);
   return "#" + new URLSearchParams(told);
 }
 
@@ -61,10 +65,13 @@ function toAddress() {
 
 // The back button, and a link that is pasted into an open page.
 addEventListener("popstate", () => {
-  if (location.hash === addressOf(state)) return;
+  if (location.hash !== addressOf(state)) readAddress();
+});
+
+function readAddress() {
   Object.assign(state, fromAddress(), { turn: state.turn, strong: state.strong });
   show();
-});
+}
 
 // ---- cards
 
@@ -272,7 +279,7 @@ function historyPicture(n, k, found) {
     title: () => `History: ${name}, ${pointWords(at)}`,
     words: () => [element("div", `${historyWords(found)} Choose the bare frame in the legend to lay it under the floor.`), ...(found.notice ? [notice(found.notice)] : [])],
     origin: () => originWords(k),
-    file: () => { const p = pointOf(at); return fileName(name, "history", `T${p.period}`, `SR${p.stiffness_ratio}`, `${p.pretension}kN`); },
+    file: () => { const p = pointOf(at); return fileName(name, "history", `T${p.period}`, `SR${p.stiffness_ratio}`, `${p.pretension}${FORCE}`); },
     numbers: () => historyNumbers(found),
     netcdf: async () => {
       const now = cards.get(`history-${n}`);
@@ -312,7 +319,7 @@ function allPicture(everything) {
     origin: () => `Records: ${everything.map(({ name }) => name).join(", ")}`,
     file: () => fileName("all", index.name, "over-pretension"),
     numbers: () => ({
-      heads: ["pretension_kN", ...everything.map(({ name }) => `${name}_${named(index)}`)],
+      heads: [`pretension_${FORCE}`, ...everything.map(({ name }) => `${name}_${named(index)}`)],
       rows: AXES.pretension.map((force, f) => [force, ...everything.map(({ numbers }) => cell(numbers[index.name], state.ratio, f, state.period))]),
     }),
     click: (point) => movePoint(AXES.period[state.period], point.x),
@@ -354,7 +361,7 @@ async function show(delay = 0) {
     controlsFromState();
     toAddress();
     const index = chosenIndex();
-    const scale = scaleOf(shown.map(({ numbers }) => numbers[index.name]), index.colours);
+    const scale = scaleOf(shown.map(({ numbers }) => numbers[index.name]), index.colours, index.neutral);
     if (shown.length === 1) ["map-1", "surface-1", "history-1", "energy-1"].forEach(discard);
     const maps = (kind) => shown.map(({ k, numbers }, n) => () => draw(mapPicture(n, k, numbers, scale, kind)));
     const curves = ["over-pretension", ...(index.best ? ["best-pretension"] : [])].map((kind) => () => draw(curvePicture(kind, shown)));
@@ -480,13 +487,16 @@ function controlsFromState() {
   const told = {
     ratio: written(AXES.stiffness_ratio[state.ratio]),
     period: written(AXES.period[state.period], "s"),
-    force: state.force === null ? "" : written(AXES.pretension[state.force], "kN"),
+    force: state.force === null ? "" : written(AXES.pretension[state.force], FORCE),
   };
   const at = pointOf(state);
   for (const field of FIELDS) {
     const box = byId(`field-${field.name}`);
     if (box && document.activeElement !== box) box.value = Number.isFinite(at[field.name]) ? String(Number(at[field.name].toPrecision(6))) : "";
   }
+  for (const kind of Object.keys(KINDS)) byId(`unit-${kind}`).value = chosenUnits[kind];
+  const force = FIELDS.find((field) => field.name === "pretension"), named = byId("label-pretension");
+  if (named) named.textContent = `Pretension, ${force.unit}`;
   for (const name of ["record", "compare", "index", "ratio", "period", "force"]) {
     const value = String(state[name] ?? 0);
     if (control[name].value !== value) control[name].value = value;
@@ -568,9 +578,32 @@ function connect() {
   control.best.addEventListener("click", chooseBest);
   control.line.addEventListener("click", searchLine);
   control.line.hidden = !about.served;
+  unitControls();
   byId("controls").addEventListener("submit", (event) => event.preventDefault());
   if (!about.served) {
     byId("histories").append(notice(`This file has no server behind it, so a click shows the peaks of its cell in the tables below. For histories: fdspec explore ${about.name}`));
+  }
+}
+
+// Other units are another view of the same numbers, so the address says them and the page reads it anew.
+function unitControls() {
+  for (const [kind, { title, units }] of Object.entries(KINDS)) {
+    const field = element("div"), label = element("label", title), select = element("select");
+    select.id = `unit-${kind}`;
+    label.htmlFor = select.id;
+    options(select, Object.keys(units));
+    for (const option of select.options) option.value = option.textContent;
+    select.addEventListener("change", () => {
+      const told = Object.fromEntries(new URLSearchParams(addressOf(state).slice(1)));
+      for (const one of Object.keys(KINDS)) delete told[one];
+      chosenUnits[kind] = select.value;
+      unitsInto(told);
+      history.pushState(null, "", "#" + new URLSearchParams(told));
+      readAddress();
+    });
+    field.className = "field";
+    field.append(label, select);
+    byId("unit-fields").append(field);
   }
 }
 
@@ -583,6 +616,7 @@ function fields() {
     box.inputMode = "decimal";
     box.autocomplete = "off";
     label.htmlFor = box.id;
+    label.id = `label-${field.name}`;
     box.addEventListener("change", () => typed(field, box));
     row.append(label, box);
     place.append(row);
