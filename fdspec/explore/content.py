@@ -63,10 +63,15 @@ class Content:
         cube = self.cube
         return {
             "name": self.name,
-            "title": str(cube.attrs.get("title", "")),
-            "made": str(cube.attrs.get("history", "")),
-            "comment": str(cube.attrs.get("comment", "")),
-            "frame": frame_of(cube),
+            "cubes": [
+                {
+                    "name": self.name,
+                    "title": str(cube.attrs.get("title", "")),
+                    "made": str(cube.attrs.get("history", "")),
+                    "comment": str(cube.attrs.get("comment", "")),
+                    "frame": frame_of(cube),
+                }
+            ],
             "axes": {
                 "stiffness_ratio": cube["stiffness_ratio"].values.tolist(),
                 "pretension": (cube["pretension"].values / 1e3).tolist(),
@@ -90,7 +95,7 @@ class Content:
 
     def _about_record(self, k: int) -> dict[str, Any]:
         one = self.cube.isel(record=k)
-        told: dict[str, Any] = {"name": self.records[k]}
+        told: dict[str, Any] = {"name": self.records[k], "record": self.records[k], "cube": 0}
         for name in ("source", "event"):
             told[name] = str(one[name].item()) if name in one.coords else ""
         for name, factor in (("pga", 1.0 / G), ("duration", 1.0), ("scale_factor", 1.0)):

@@ -9,6 +9,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Final
 
+from fdspec.explore.beside import Beside
 from fdspec.explore.content import Content, embedded
 
 SCRIPTS: Final = ("units.js", "numbers.js", "best.js", "words.js", "plots.js", "histories.js", "downloads.js", "page.js")
@@ -27,20 +28,20 @@ NO_NETWORK: Final = (
 compiles functions ('unsafe-eval') and makes pictures of itself (data:, blob:)."""
 
 
-def served_page(content: Content) -> str:
+def served_page(content: Content | Beside) -> str:
     """Return the page whose histories, and all records but the first, come from the server that sent it."""
     about = {**content.about, "served": True}
     return _page(content, embedded(about), '<script src="plotly.js"></script>', _numbers(content, 1), "")
 
 
-def written_page(content: Content) -> str:
+def written_page(content: Content | Beside) -> str:
     """Return the page that holds all records and the drawing library: it needs nothing else."""
     about = {**content.about, "served": False}
     policy = f'<meta http-equiv="Content-Security-Policy" content="{NO_NETWORK}">'
     return _page(content, embedded(about), f"<script>{plotly_script()}</script>", _numbers(content), policy)
 
 
-def write_page(content: Content, path: Path) -> None:
+def write_page(content: Content | Beside, path: Path) -> None:
     """Write the page that needs no server to an HTML file, as a whole or not at all."""
     from fdspec.store.replacing import replacing
 
@@ -77,7 +78,7 @@ def _page(content: Content, about: str, library: str, numbers: str, policy: str)
     return text
 
 
-def _numbers(content: Content, first: int | None = None) -> str:
+def _numbers(content: Content | Beside, first: int | None = None) -> str:
     """Return the numbers of the first records, of all unless a count is given, as the page holds them."""
     return "\n".join(
         f'<script type="text/plain" id="record-{k}">{base64.b64encode(content.record(k)).decode()}</script>'

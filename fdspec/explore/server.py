@@ -20,6 +20,7 @@ from tornado.web import Application, HTTPError, RequestHandler
 
 from fdspec import store
 from fdspec.errors import FdspecError, InvalidInput, StoreError
+from fdspec.explore.beside import Beside, Reruns
 from fdspec.explore.best import packed_best
 from fdspec.explore.content import Content
 from fdspec.explore.page import plotly_script, served_page
@@ -46,7 +47,7 @@ LOOPBACK_NAMES: Final = r"(localhost|127\.\d+\.\d+\.\d+|\[::1\])"
 
 
 def serve(
-    content: Content, rerun: Rerun, *, host: str = "127.0.0.1", port: int = 0, ready: Callable[[str], None]
+    content: Content | Beside, rerun: Rerun | Reruns, *, host: str = "127.0.0.1", port: int = 0, ready: Callable[[str], None]
 ) -> None:
     """Serve the page until this is interrupted.
 
@@ -69,7 +70,9 @@ def serve(
     asyncio.run(_serve(content, rerun, host, port, ready))
 
 
-async def _serve(content: Content, rerun: Rerun, host: str, port: int, ready: Callable[[str], None]) -> None:
+async def _serve(
+    content: Content | Beside, rerun: Rerun | Reruns, host: str, port: int, ready: Callable[[str], None]
+) -> None:
     try:
         sockets = bind_sockets(port, host)
     except OSError as error:
@@ -96,7 +99,7 @@ def _warm() -> None:
         import_module(name)
 
 
-def application(content: Content, rerun: Rerun, host: str) -> Application:
+def application(content: Content | Beside, rerun: Rerun | Reruns, host: str) -> Application:
     """Return the pages that the server answers."""
     page = served_page(content).encode()
     routes: list[Any] = [
@@ -166,7 +169,7 @@ class _Text(_Answer):
 
 
 class _Record(_Answer):
-    def initialize(self, content: Content) -> None:
+    def initialize(self, content: Content | Beside) -> None:
         self.content = content
 
     async def get(self, position: str) -> None:
@@ -189,7 +192,7 @@ class _Computed(_Answer):
 
     kind = "application/octet-stream"
 
-    def initialize(self, rerun: Rerun) -> None:
+    def initialize(self, rerun: Rerun | Reruns) -> None:
         self.rerun = rerun
 
     async def get(self) -> None:
@@ -239,31 +242,33 @@ class _Computed(_Answer):
             raise HTTPError(400)
         return int(text)
 
-    def place(self) -> tuple[int, int, int, int]:
-        """Return the positions of the cell that the address names."""
-        record, ratio, force, period = (
-            self.position(name) for name in ("record", "stiffness_ratio", "pretension", "period")
-        )
-        return record, ratio, force, period
+    def place(self) -> tuple[Rerun, int, int, int, int]:
+        """Return who runs the history of the cell that the address names, and its positions."""
+        rerun, record = self.rerun.of(self.position("record"))
+        ratio, force, period = (self.position(name) for name in ("stiffness_ratio", "pretension", "period"))
+        return rerun, record, ratio, force, period
 
 
 class _History(_Computed):
     def computed(self) -> bytes:
-        return self.rerun.packed(*self.place())
+        rerun, *place = self.place()
+        return rerun.packed(*place)
 
 
 class _Point(_Computed):
     def computed(self) -> bytes:
         given = {field.name: self.get_query_argument(field.name, "") for field in FIELDS}
-        return packed_point(self.rerun, self.position("record"), point_of(given))
+        rerun, record = self.rerun.of(self.position("record"))
+        return packed_point(rerun, record, point_of(given))
 
 
 class _Best(_Computed):
     def computed(self) -> bytes:
         period = self.position("period") if self.get_query_argument("period", "") else None
+        rerun, record = self.rerun.of(self.position("record"))
         return packed_best(
-            self.rerun,
-            self.position("record"),
+            rerun,
+            record,
             self.position("stiffness_ratio"),
             self.get_query_argument("index", ""),
             period,
@@ -276,7 +281,8 @@ class _HistoryFile(_Computed):
 
     def computed(self) -> bytes:
         """Return the history as the bytes of the file that `fdspec.save` writes."""
-        history, _ = self.rerun.history(*self.place())
+        rerun, *place = self.place()
+        history, _ = rerun.history(*place)
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "history.nc"
             store.save(history, path)

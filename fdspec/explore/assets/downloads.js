@@ -40,7 +40,7 @@ function quoted(text) {
 function saveNumbers(picture) {
   const { heads, rows } = picture.numbers();
   const lines = [
-    `# ${picture.title()}`, ...[picture.origin(), `cube: ${about.name}`, `made: ${about.made}`].filter(Boolean).map((text) => `# ${text.replace(/\s+/g, " ")}`),
+    `# ${picture.title()}`, ...[picture.origin(), `cube: ${about.name}`, ...about.cubes.map(({ made }) => (made ? `made: ${made}` : ""))].filter(Boolean).map((text) => `# ${text.replace(/\s+/g, " ")}`),
     heads.map(quoted).join(","),
     // JavaScript writes the shortest digits that read back to the same number.
     ...rows.map((row) => row.map((v) => (v === null || Number.isNaN(v) ? "" : v)).join(",")),

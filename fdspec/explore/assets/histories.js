@@ -4,7 +4,7 @@ const running = new Map();
 
 // Where the point is one of the cube's its positions are asked for, else its values.
 function historyAddress(s, k, file) {
-  if (s.free) return `point?${new URLSearchParams({ record: k, ...s.free, pretension: sentFrom(s.free.pretension, "kN") })}`;
+  if (s.free) return `point?${new URLSearchParams({ record: k, ...frameOf(k), ...s.free, pretension: sentFrom(s.free.pretension, "kN") })}`;
   return `${file}?record=${k}&stiffness_ratio=${s.ratio}&pretension=${s.force}&period=${s.period}`;
 }
 

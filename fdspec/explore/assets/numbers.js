@@ -87,8 +87,8 @@ function shortest(value) {
 const FIELDS = [
   { name: "period", title: "period", unit: "s" }, { name: "stiffness_ratio", title: "stiffness ratio", unit: "" }, { name: "pretension", title: "pretension", unit: "kN" },
   ...["floor_mass", "brace_mass", "damping_ratio", "friction_coefficient"].flatMap((name) => {
-    const told = about.frame.find((one) => one.name === name);
-    return told ? [{ name, title: told.title, unit: told.unit, value: told.value, own: true }] : [];
+    const told = about.cubes[0].frame.find((one) => one.name === name);
+    return told ? [{ name, title: told.title, unit: told.unit, own: true }] : [];
   }),
 ];
 applyUnits();
@@ -96,8 +96,19 @@ applyUnits();
 // Values of the point: the cube's at the sliders, or those that were typed.
 function pointOf(s) {
   const here = { period: AXES.period[s.period], stiffness_ratio: AXES.stiffness_ratio[s.ratio], pretension: s.force === null ? NaN : AXES.pretension[s.force] };
-  for (const field of FIELDS) if (field.own) here[field.name] = field.value;
-  return { ...here, ...(s.free || {}) };
+  return { ...here, ...frameOf(s.record), ...(s.free || {}) };
+}
+
+// The frame's constants in the cube that a record is of.
+function frameOf(k) {
+  const { frame } = about.cubes[about.records[k].cube];
+  return Object.fromEntries(FIELDS.filter((field) => field.own).map(({ name }) => [name, frame.find((one) => one.name === name)?.value]));
+}
+
+// A point between the cube's: its place, and of the frame what is not the record's cube's own.
+function freeAt(point, k) {
+  const own = frameOf(k);
+  return Object.fromEntries(Object.entries(point).filter(([name, value]) => !(name in own) || Math.abs(value - own[name]) > 1e-9 * Math.abs(own[name])));
 }
 
 function cell(values, ratio, force, period) {

@@ -3,11 +3,19 @@
 const byId = (id) => document.getElementById(id);
 const control = Object.fromEntries(["record", "compare", "index", "ratio", "period", "force", "best", "line"].map((id) => [id, byId(id)]));
 
+// In an address: compared with no other, where two cubes would be.
+const NONE = "none";
 const USUAL = {
-  record: 0, compare: -1, index: 0, turn: -55, strong: false, free: null,
+  record: 0, compare: about.cubes.length > 1 ? counterpart(0) : -1, index: 0, turn: -55, strong: false, free: null,
   ratio: nearest(AXES.stiffness_ratio, 4), period: nearest(AXES.period, 0.5), force: null,
 };
 const state = fromAddress();
+
+// The same earthquake in the next cube; -1 where it has none.
+function counterpart(k) {
+  const { record, cube } = about.records[k];
+  return about.records.findIndex((r) => r.record === record && r.cube === (cube + 1) % about.cubes.length);
+}
 const cards = new Map();
 const histories = new Map();
 
@@ -21,6 +29,8 @@ function fromAddress() {
   const place = (list, name) => list.indexOf(told.get(name));
   if (place(names, "record") >= 0) found.record = place(names, "record");
   if (place(names, "compare") >= 0) found.compare = place(names, "compare");
+  else if (told.get("compare") === NONE) found.compare = -1;
+  else if (about.cubes.length > 1) found.compare = counterpart(found.record);
   if (place(about.indices.map((index) => index.name), "index") >= 0) found.index = place(about.indices.map((index) => index.name), "index");
   const free = {};
   for (const [key, name] of [["period", "period"], ["ratio", "stiffness_ratio"], ["force", "pretension"]]) {
@@ -32,10 +42,10 @@ function fromAddress() {
   }
   for (const field of FIELDS.filter((one) => one.own)) {
     const value = numberOf(told.get(field.name));
-    if (value !== null && value !== field.value) free[field.name] = value;
+    if (value !== null && value !== frameOf(found.record)[field.name]) free[field.name] = value;
   }
   if (found.compare === found.record) found.compare = -1;
-  if (about.served && Object.keys(free).length) found.free = { ...pointOf({ ...found, free: null, force: found.force ?? 0 }), ...free };
+  if (about.served && Object.keys(free).length) found.free = freeAt({ ...pointOf({ ...found, free: null, force: found.force ?? 0 }), ...free }, found.record);
   return found;
 }
 
@@ -47,8 +57,9 @@ function numberOf(text) {
 function addressOf(s) {
   const at = pointOf(s), told = { record: about.records[s.record].name, index: about.indices[s.index].name };
   if (s.compare >= 0) told.compare = about.records[s.compare].name;
+  else if (about.cubes.length > 1) told.compare = NONE;
   for (const name of ["stiffness_ratio", "period", "pretension"]) told[name] = name === "pretension" ? sentFrom(at[name], "kN") : at[name];
-  for (const field of FIELDS) if (field.own && s.free && s.free[field.name] !== field.value) told[field.name] = s.free[field.name];
+  for (const field of FIELDS) if (field.own && s.free && field.name in s.free) told[field.name] = s.free[field.name];
   unitsInto(told);
   return "#" + new URLSearchParams(told);
 }
@@ -329,8 +340,9 @@ function allPicture(everything) {
 // More are too many to tell apart, and to load.
 const MANY = 60;
 async function showAll(turn) {
-  if (about.records.length < 2 || about.records.length > MANY) return;
-  const everything = await Promise.all(about.records.map(async (r, k) => ({ k, name: r.name, numbers: await recordNumbers(k) })));
+  const { cube } = about.records[state.record], ks = [...about.records.keys()].filter((k) => about.records[k].cube === cube);
+  if (ks.length < 2 || ks.length > MANY) { discard("all-records"); return; }
+  const everything = await Promise.all(ks.map(async (k) => ({ k, name: about.records[k].name, numbers: await recordNumbers(k) })));
   if (turn === asked) await draw(allPicture(everything));
 }
 
@@ -454,7 +466,7 @@ function tables(shown) {
   if (about.served) {
     shown.forEach(({ k }, n) => {
       const found = histories.get(n);
-      if (!found || found.record !== about.records[k].name) return;
+      if (!found || found.record !== about.records[k].record) return;
       const compared = found.compared.map((one) => [one.title, written(one.history, one.unit), one.cube === null ? "not in the cube" : written(one.cube, one.unit)]);
       block(`compared-${n}`, `History and cube: ${about.records[k].name}`, table(`Peaks at ${pointWords(state)}`, ["Quantity", "History", "Cube"], compared));
     });
@@ -466,8 +478,10 @@ function tables(shown) {
   }
   const list = element("dl");
   for (const { k } of shown) list.append(element("dt", about.records[k].name), element("dd", originWords(k)));
-  for (const [term, text] of [["Cube", about.title], ["Made", about.made], ["Note", about.comment]]) {
-    if (text) list.append(element("dt", term), element("dd", text));
+  for (const cube of about.cubes) {
+    for (const [term, text] of [["Cube", [cube.name, cube.title].filter(Boolean).join(": ")], ["Made", cube.made], ["Note", cube.comment]]) {
+      if (text) list.append(element("dt", term), element("dd", text));
+    }
   }
   block("origin-of-numbers", "Where the numbers come from", list);
   byId("more").replaceChildren(...blocks);
@@ -540,7 +554,7 @@ async function chooseBest() {
   const told = searchedAt(state, state.record, state.period);
   if (told && Number.isFinite(told.value)) {
     state.force = nearest(AXES.pretension, told.pretension);
-    state.free = { ...pointOf(state), pretension: told.pretension };
+    state.free = freeAt({ ...pointOf(state), pretension: told.pretension }, state.record);
     show();
     return;
   }
@@ -551,8 +565,10 @@ async function chooseBest() {
 
 function connect() {
   byId("name").textContent = about.name;
-  byId("frame").textContent = about.frame.map((one) => `${one.title} ${written(one.value, one.unit)}`).join(", ");
-  byId("origin").textContent = `${about.records.length} records, ${SIZES.ratio} stiffness ratios, ${SIZES.force} pretensions, ${SIZES.period} periods. ${about.title}.`;
+  const several = about.cubes.length > 1;
+  byId("frame").replaceChildren(...about.cubes.map(({ name, frame }) => element("span", (several ? `${name}: ` : "") +
+    frame.map((one) => `${one.title} ${written(one.value, one.unit)}`).join(", "))));
+  byId("origin").textContent = `${about.records.length} records, ${SIZES.ratio} stiffness ratios, ${SIZES.force} pretensions, ${SIZES.period} periods. ${about.cubes[0].title}.`;
   options(control.record, about.records.map((r) => r.name));
   options(control.compare, ["no other", ...about.records.map((r) => r.name)], -1);
   options(control.index, about.indices.map((index) => index.title));
@@ -564,6 +580,8 @@ function connect() {
     state[name] = Number(control[name].value);
     if (name !== "record" && name !== "compare" && name !== "index") state.free = null;
     else chosen = true;
+    // The other cube's picture stays that of the same earthquake.
+    if (name === "record" && about.cubes.length > 1 && state.compare >= 0) state.compare = counterpart(state.record);
     if (state.compare === state.record) state.compare = -1;
     show(delay);
   });
@@ -634,7 +652,7 @@ function typed(field, box) {
   state.ratio = nearest(AXES.stiffness_ratio, at.stiffness_ratio);
   state.force = nearest(AXES.pretension, at.pretension);
   const cubes = pointOf({ ...state, free: null });
-  state.free = FIELDS.every((one) => Math.abs(at[one.name] - cubes[one.name]) <= 1e-9 * Math.abs(cubes[one.name])) ? null : at;
+  state.free = FIELDS.every((one) => Math.abs(at[one.name] - cubes[one.name]) <= 1e-9 * Math.abs(cubes[one.name])) ? null : freeAt(at, state.record);
   show();
 }
 

@@ -1,7 +1,7 @@
 // Words: what stands beside a picture, for those who do not see it and for those who do.
 
 function pointWords(s) {
-  const at = pointOf(s), own = FIELDS.filter((field) => field.own && s.free && s.free[field.name] !== field.value);
+  const at = pointOf(s), own = FIELDS.filter((field) => field.own && s.free && field.name in s.free);
   return [
     `period ${written(at.period, "s")}`, `stiffness ratio ${written(at.stiffness_ratio)}`, `pretension ${written(at.pretension, FORCE)}`,
     ...own.map((field) => `${field.title} ${written(s.free[field.name], field.unit)}`),
