@@ -36,31 +36,43 @@ from fdspec.stopping import Stopped
 def explore(cubes: tuple[str, ...], records: tuple[str, ...], host: str, port: int, no_browser: bool) -> None:
     """Show a cube in the browser: maps, surfaces, best pretension, histories at a click.
 
-    Cubes over the same axes stand beside each other on one page, with the same controls and colours.
+    Cubes over the same axes stand beside each other on one page, with the same controls and colours. Of a
+    cube of buildings the page shows profiles over the height.
     Prints the page's address and serves it until Ctrl-C. It is reached from this machine alone unless --host
     says otherwise. `fdspec export CUBE.nc --html` writes a page that needs no server.
     """
     from fdspec import store
-    from fdspec.store.suitable import require_cube
 
     try:
-        from fdspec.explore import Content, Rerun, serve
+        from fdspec.explore import Rerun, serve
         from fdspec.explore.beside import Beside, Reruns, files_of
+        from fdspec.explore.building_content import BuildingContent
         from fdspec.explore.motions import read_given
+        from fdspec.explore.opened import content_of
+        from fdspec.explore.page import Shown
         from fdspec.explore.server import is_loopback
     except ModuleNotFoundError as error:
         raise InvalidInput(needs_extra(error)) from None
 
     files = read_given(records)
     opened = [store.open(cube, lazily=True) for cube in cubes]
-    for cube, path in zip(opened, cubes, strict=True):
-        require_cube(cube, path, "pages")
-    contents = [Content(cube, name) for cube, name in zip(opened, _names(cubes), strict=True)]
-    beside = len(contents) > 1
-    content = Beside(contents) if beside else contents[0]
-    given = files_of(files, [one.records for one in contents]) if beside else [files]
-    reruns = [Rerun(*one) for one in zip(opened, given, (Path(path).parent for path in cubes), strict=True)]
-    rerun = Reruns(reruns) if beside else reruns[0]
+    contents = [content_of(*one) for one in zip(opened, cubes, _names(cubes), strict=True)]
+    of_frames = [one for one in contents if not isinstance(one, BuildingContent)]
+    content: Shown
+    rerun: Rerun | Reruns | None
+    if len(of_frames) < len(contents):
+        if len(contents) > 1:
+            raise InvalidInput("a cube of buildings has a page of its own; name one cube")
+        if files:
+            raise InvalidInput("--record is for histories, which the page of buildings has none of")
+        content, rerun = contents[0], None
+    elif len(contents) == 1:
+        content, rerun = contents[0], Rerun(opened[0], files, Path(cubes[0]).parent)
+    else:
+        content = Beside(of_frames)
+        given = files_of(files, [one.records for one in contents])
+        folders = [Path(path).parent for path in cubes]
+        rerun = Reruns([Rerun(*one) for one in zip(opened, given, folders, strict=True)])
     if not is_loopback(host):
         echo(f"fdspec: warning: whoever reaches {host} can read this cube and run histories", err=True)
 

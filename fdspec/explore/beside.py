@@ -59,9 +59,7 @@ class Beside:
             **told[0],
             "name": self.name,
             "cubes": [cube for one in told for cube in one["cubes"]],
-            "records": [
-                {**record, "name": name} for record, name in zip(records, self.records, strict=True)
-            ],
+            "records": [{**record, "name": name} for record, name in zip(records, self.records, strict=True)],
             "indices": [index for index in told[0]["indices"] if index["name"] in self._indices],
         }
 

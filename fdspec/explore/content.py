@@ -78,7 +78,7 @@ class Content:
                 "period": cube["period"].values.tolist(),
                 "slip_force": (cube["slip_force"].values / 1e3).tolist(),
             },
-            "records": [self._about_record(k) for k in range(len(self.records))],
+            "records": [about_record(cube, k) for k in range(len(self.records))],
             "indices": [
                 {
                     "name": index.name,
@@ -92,16 +92,6 @@ class Content:
                 for index in self.indices
             ],
         }
-
-    def _about_record(self, k: int) -> dict[str, Any]:
-        one = self.cube.isel(record=k)
-        told: dict[str, Any] = {"name": self.records[k], "record": self.records[k], "cube": 0}
-        for name in ("source", "event"):
-            told[name] = str(one[name].item()) if name in one.coords else ""
-        for name, factor in (("pga", 1.0 / G), ("duration", 1.0), ("scale_factor", 1.0)):
-            value = float(one[name].item()) * factor if name in one.coords else float("nan")
-            told[name] = value if np.isfinite(value) else None
-        return told
 
     def record(self, k: int) -> bytes:
         """Return the numbers of one record, packed and compressed.
@@ -126,6 +116,19 @@ class Content:
                 arrays[name] = one[variable].isel(record=0).transpose(*dims).values / G
         # Level 6 takes three times as long for a twentieth less.
         return gzip.compress(pack({"record": self.records[k]}, arrays), compresslevel=1, mtime=0)
+
+
+def about_record(cube: xr.Dataset, k: int) -> dict[str, Any]:
+    """Return what a cube tells of its k-th record; its ``cube`` is the first of the page's."""
+    one = cube.isel(record=k)
+    name = str(one["record"].item())
+    told: dict[str, Any] = {"name": name, "record": name, "cube": 0}
+    for key in ("source", "event"):
+        told[key] = str(one[key].item()) if key in one.coords else ""
+    for key, factor in (("pga", 1.0 / G), ("duration", 1.0), ("scale_factor", 1.0)):
+        value = float(one[key].item()) * factor if key in one.coords else float("nan")
+        told[key] = value if np.isfinite(value) else None
+    return told
 
 
 FRAME: Final = (

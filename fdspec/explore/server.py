@@ -20,10 +20,9 @@ from tornado.web import Application, HTTPError, RequestHandler
 
 from fdspec import store
 from fdspec.errors import FdspecError, InvalidInput, StoreError
-from fdspec.explore.beside import Beside, Reruns
+from fdspec.explore.beside import Reruns
 from fdspec.explore.best import packed_best
-from fdspec.explore.content import Content
-from fdspec.explore.page import plotly_script, served_page
+from fdspec.explore.page import Shown, plotly_script, served_page
 from fdspec.explore.point import FIELDS, packed_point, point_of
 from fdspec.explore.rerun import Rerun
 
@@ -47,14 +46,19 @@ LOOPBACK_NAMES: Final = r"(localhost|127\.\d+\.\d+\.\d+|\[::1\])"
 
 
 def serve(
-    content: Content | Beside, rerun: Rerun | Reruns, *, host: str = "127.0.0.1", port: int = 0, ready: Callable[[str], None]
+    content: Shown,
+    rerun: Rerun | Reruns | None,
+    *,
+    host: str = "127.0.0.1",
+    port: int = 0,
+    ready: Callable[[str], None],
 ) -> None:
     """Serve the page until this is interrupted.
 
     Parameters
     ----------
     content, rerun
-        What the page shows, and who runs its histories.
+        What the page shows, and who runs its histories; None where nobody does.
     host : str
         Address to bind to. On loopback, requests under other names are refused.
     port : int
@@ -71,7 +75,7 @@ def serve(
 
 
 async def _serve(
-    content: Content | Beside, rerun: Rerun | Reruns, host: str, port: int, ready: Callable[[str], None]
+    content: Shown, rerun: Rerun | Reruns | None, host: str, port: int, ready: Callable[[str], None]
 ) -> None:
     try:
         sockets = bind_sockets(port, host)
@@ -84,8 +88,9 @@ async def _serve(
     server.add_sockets(sockets)
     bound = sockets[0].getsockname()[1]
     ready(f"http://{f'[{host}]' if ':' in host else host}:{bound}/")
-    # The kernels come from their cache while the reader looks at the page.
-    threading.Thread(target=_warm, name="fdspec-page-warm", daemon=True).start()
+    if rerun is not None:
+        # The kernels come from their cache while the reader looks at the page.
+        threading.Thread(target=_warm, name="fdspec-page-warm", daemon=True).start()
     await asyncio.Event().wait()
 
 
@@ -99,7 +104,7 @@ def _warm() -> None:
         import_module(name)
 
 
-def application(content: Content | Beside, rerun: Rerun | Reruns, host: str) -> Application:
+def application(content: Shown, rerun: Rerun | Reruns | None, host: str) -> Application:
     """Return the pages that the server answers."""
     page = served_page(content).encode()
     routes: list[Any] = [
@@ -110,11 +115,14 @@ def application(content: Content | Beside, rerun: Rerun | Reruns, host: str) -> 
             {"body": plotly_script().encode(), "kind": "text/javascript; charset=utf-8", "keep": True},
         ),
         (r"/record/([0-9]+)", _Record, {"content": content}),
-        (r"/history", _History, {"rerun": rerun}),
-        (r"/history\.nc", _HistoryFile, {"rerun": rerun}),
-        (r"/point", _Point, {"rerun": rerun}),
-        (r"/best", _Best, {"rerun": rerun}),
     ]
+    if rerun is not None:
+        routes += [
+            (r"/history", _History, {"rerun": rerun}),
+            (r"/history\.nc", _HistoryFile, {"rerun": rerun}),
+            (r"/point", _Point, {"rerun": rerun}),
+            (r"/best", _Best, {"rerun": rerun}),
+        ]
     names = LOOPBACK_NAMES if is_loopback(host) else r".*"
     # Threads of this name do not hold the process when it is told to end: see fdspec.cli.main.
     bench = ThreadPoolExecutor(AT_ONCE, thread_name_prefix="fdspec-page")
@@ -169,7 +177,7 @@ class _Text(_Answer):
 
 
 class _Record(_Answer):
-    def initialize(self, content: Content | Beside) -> None:
+    def initialize(self, content: Shown) -> None:
         self.content = content
 
     async def get(self, position: str) -> None:

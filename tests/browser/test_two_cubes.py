@@ -70,9 +70,7 @@ def test_each_history_is_of_its_own_cubes_frame(
 ) -> None:
     page = wide.open(f"{both}#stiffness_ratio=4&period=0.5&pretension=60")
     for n, of in ((0, cube), (1, heavy)):
-        peak = of["peak_acceleration"].sel(
-            record="FSR1", stiffness_ratio=4.0, period=0.5, pretension=60e3
-        )
+        peak = of["peak_acceleration"].sel(record="FSR1", stiffness_ratio=4.0, period=0.5, pretension=60e3)
         assert f"{peak.item() / G:.4g} g" in words(page, f"history-{n}")
         assert "The cube's cell says the same." in words(page, f"history-{n}")
     page.evaluate("document.getElementById('anywhere').open = true")

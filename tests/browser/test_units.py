@@ -15,7 +15,10 @@ from tests.explored import PRETENSION, unpack
 
 pytestmark = pytest.mark.browser
 
-UNITS = {"acceleration": {"g": G, "m/s²": 1.0, "%\u00a0g": 0.01 * G}, "force": {"kN": 1e3, "MN": 1e6, "N": 1.0}}
+UNITS = {
+    "acceleration": {"g": G, "m/s²": 1.0, "%\u00a0g": 0.01 * G},
+    "force": {"kN": 1e3, "MN": 1e6, "N": 1.0},
+}
 
 
 def choose(watched: Watched, kind: str, unit: str) -> None:

@@ -1,54 +1,7 @@
-// Numbers: unpacked from bytes, sliced, and written for people.
+// Numbers of a cube of single-storey frames: in the units of the page, sliced, and on a scale of colours.
 
-const about = JSON.parse(document.getElementById("about").textContent);
 const AXES = { ...about.axes };
 const SIZES = { ratio: AXES.stiffness_ratio.length, force: AXES.pretension.length, period: AXES.period.length };
-
-// The counterpart of fdspec/explore/packing.py.
-function unpack(buffer) {
-  const length = new DataView(buffer).getUint32(0, true);
-  const head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
-  const values = new Float64Array(buffer, 4 + length);
-  const arrays = {};
-  for (const [name, [first, count]] of Object.entries(head.arrays)) {
-    arrays[name] = values.subarray(first, first + count);
-  }
-  return { ...head, arrays };
-}
-
-async function gunzip(bytes) {
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Response(stream).arrayBuffer();
-}
-
-// What the server answers, or the sentence with which it refuses.
-async function ask(address, signal) {
-  let answer;
-  try {
-    answer = await fetch(address, { signal });
-  } catch (error) {
-    if (error.name === "AbortError") throw error;
-    throw new Error("The server does not answer: fdspec explore has ended. Start it again and reload this page.");
-  }
-  if (answer.ok) return answer.arrayBuffer();
-  const told = await answer.json().catch(() => ({}));
-  throw new Error(told.error || `The server answers with error ${answer.status}.`);
-}
-
-async function recordBytes(k) {
-  const here = document.getElementById(`record-${k}`);
-  return here ? Uint8Array.from(atob(here.textContent), (letter) => letter.charCodeAt(0)) : ask(`record/${k}`);
-}
-
-const records = new Map();
-function sentNumbers(k) {
-  if (!records.has(k)) {
-    const coming = recordBytes(k).then(gunzip).then((buffer) => unpack(buffer).arrays);
-    coming.catch(() => records.delete(k));
-    records.set(k, coming);
-  }
-  return records.get(k);
-}
 
 // A record's numbers in the units of the page, kept until those change.
 const inUnits = new Map();
@@ -76,11 +29,6 @@ function applyUnits() {
   for (const name of ["pretension", "slip_force"]) AXES[name] = about.axes[name].map((v) => shortest(shownIn(v, "kN")));
   for (const index of about.indices) index.unit = unitFor(index.sent);
   FIELDS.find((field) => field.name === "pretension").unit = FORCE;
-}
-
-// 0.11 MN, not 0.11000000000000001.
-function shortest(value) {
-  return Number(value.toPrecision(15));
 }
 
 // The numbers that the page has a field for; those of the frame hold for the whole cube.
@@ -146,17 +94,4 @@ function scaleOf(arrays, [least, most], neutral = null) {
     return { low: neutral - steps * step, high: neutral + steps * step, step, neutral };
   }
   return { low: Math.floor(low / step) * step, high: Math.ceil(high / step - 1e-9) * step, step };
-}
-
-function nearest(axis, value) {
-  let best = 0;
-  axis.forEach((x, k) => { if (Math.abs(x - value) < Math.abs(axis[best] - value)) best = k; });
-  return best;
-}
-
-function written(value, unit) {
-  if (typeof value === "string") return value;
-  if (value === null || value === undefined || !Number.isFinite(value)) return "unknown";
-  const digits = Number.isInteger(value) && Math.abs(value) < 1e6 ? String(value) : String(Number(value.toPrecision(4)));
-  return unit ? `${digits}\u00a0${unit}` : digits;
 }

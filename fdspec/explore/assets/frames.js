@@ -1,6 +1,5 @@
-// The page: controls, cards of pictures, and what follows from what.
+// The page of a cube of single-storey frames: its controls, its pictures, and what follows from what.
 
-const byId = (id) => document.getElementById(id);
 const control = Object.fromEntries(["record", "compare", "index", "ratio", "period", "force", "best", "line"].map((id) => [id, byId(id)]));
 
 // In an address: compared with no other, where two cubes would be.
@@ -16,7 +15,6 @@ function counterpart(k) {
   const { record, cube } = about.records[k];
   return about.records.findIndex((r) => r.record === record && r.cube === (cube + 1) % about.cubes.length);
 }
-const cards = new Map();
 const histories = new Map();
 
 // ---- state in the address, by names and values, so that a view can be kept, sent, and gone back to
@@ -49,11 +47,6 @@ function fromAddress() {
   return found;
 }
 
-function numberOf(text) {
-  const value = text === null || text.trim() === "" ? NaN : Number(text);
-  return Number.isFinite(value) ? value : null;
-}
-
 function addressOf(s) {
   const at = pointOf(s), told = { record: about.records[s.record].name, index: about.indices[s.index].name };
   if (s.compare >= 0) told.compare = about.records[s.compare].name;
@@ -64,100 +57,12 @@ function addressOf(s) {
   return "#" + new URLSearchParams(told);
 }
 
-// A view that was chosen gets a place of its own behind the back button; a slider that is dragged does not.
-let chosen = false;
-function toAddress() {
-  const address = addressOf(state);
-  if (address === location.hash) return;
-  if (chosen && location.hash) history.pushState(null, "", address);
-  else history.replaceState(null, "", address);
-  chosen = false;
-}
-
-// The back button, and a link that is pasted into an open page.
-addEventListener("popstate", () => {
-  if (location.hash !== addressOf(state)) readAddress();
-});
-
 function readAddress() {
   Object.assign(state, fromAddress(), { turn: state.turn, strong: state.strong });
   show();
 }
 
 // ---- cards
-
-// A card holds one picture with its heading, its words and its downloads.
-// picture: id, place, look, plot(), title(), words(), origin(), file(), numbers(), links().
-function card(picture) {
-  if (cards.has(picture.id)) {
-    Object.assign(cards.get(picture.id), picture);
-    return cards.get(picture.id);
-  }
-  const figure = element("figure"), head = element("div"), save = element("div"), plot = element("div");
-  const title = element("h2"), words = element("figcaption");
-  figure.id = picture.id;
-  title.id = `${picture.id}-title`;
-  words.id = `${picture.id}-words`;
-  // What a moved point leads to is spoken too.
-  if (picture.look === "history") words.setAttribute("aria-live", "polite");
-  figure.setAttribute("aria-labelledby", title.id);
-  head.className = "head";
-  save.className = "save";
-  plot.className = `plot ${picture.look}`;
-  plot.setAttribute("role", "img");
-  plot.setAttribute("aria-describedby", words.id);
-  const made = Object.assign(picture, { figure, plotted: plot, titled: title, worded: words, saves: save, drawn: null });
-  const button = (text, label, action) => {
-    const b = element("button", text);
-    b.type = "button";
-    b.dataset.label = label;
-    b.addEventListener("click", () => Promise.resolve(action()).catch(complain));
-    save.append(b);
-  };
-  button("PNG", "Download as PNG", () => savePicture(made, "png"));
-  button("SVG", "Download as SVG", () => savePicture(made, "svg"));
-  button("CSV", "Download the numbers as CSV", () => saveNumbers(made));
-  if (picture.netcdf && about.served) button("netCDF", "Download as netCDF", () => picture.netcdf());
-  head.append(title, save);
-  figure.append(head, plot, ...(picture.below ? picture.below() : []), words);
-  byId(picture.place).append(figure);
-  cards.set(picture.id, made);
-  return made;
-}
-
-async function draw(picture) {
-  const made = card(picture);
-  made.titled.textContent = made.title();
-  made.plotted.setAttribute("aria-label", made.title());
-  made.worded.replaceChildren(...made.words());
-  for (const b of made.saves.children) b.setAttribute("aria-label", `${b.dataset.label}: ${made.title()}`);
-  const { data, layout: drawn } = made.plot();
-  const first = made.drawn === null;
-  made.drawn = true;
-  await Plotly.react(made.plotted, data, drawn, CONFIG);
-  if (first) connectPlot(made);
-}
-
-// A click is where the button goes up where it went down: a surface that was turned was not clicked on.
-const DRAG = 5;
-function connectPlot(made) {
-  let down = null, moved = false, pending = null;
-  made.plotted.addEventListener("pointerdown", (event) => { down = [event.clientX, event.clientY]; moved = false; pending = null; }, true);
-  addEventListener("pointermove", (event) => {
-    if (down && event.buttons && Math.hypot(event.clientX - down[0], event.clientY - down[1]) > DRAG) moved = true;
-  }, true);
-  // A surface tells of a click while the button is still down.
-  addEventListener("pointerup", () => {
-    const point = pending;
-    down = pending = null;
-    if (point && !moved) made.click(point);
-  }, true);
-  if (made.click) made.plotted.on("plotly_click", (event) => {
-    if (down) pending = event.points[0];
-    else if (!moved) made.click(event.points[0]);
-  });
-  made.plotted.on("plotly_relayout", (change) => linked(made, change));
-}
 
 // Two maps show the same stretch, two surfaces the same side, and the slider of the turn follows.
 let linking = false;
@@ -196,14 +101,6 @@ async function turnTo(degrees) {
   linking = false;
 }
 
-function discard(id) {
-  const made = cards.get(id);
-  if (!made) return;
-  Plotly.purge(made.plotted);
-  made.figure.remove();
-  cards.delete(id);
-}
-
 // ---- what is shown
 
 function chosenIndex() {
@@ -237,6 +134,7 @@ function mapPicture(n, k, numbers, scale, kind) {
     file: () => fileName(name, index.name, `SR${AXES.stiffness_ratio[state.ratio]}`, kind),
     numbers: () => mapNumbers(state, index, numbers),
     click: (point) => movePoint(point.x, point.y),
+    relayed: (change) => linked(cards.get(`${kind}-${n}`), change),
     below: kind === "map" ? undefined : () => [turning(n)],
   };
 }
@@ -346,21 +244,7 @@ async function showAll(turn) {
   if (turn === asked) await draw(allPicture(everything));
 }
 
-function notice(text) {
-  const made = element("p", text);
-  made.className = "notice";
-  return made;
-}
-
-function complain(error) {
-  byId("status").textContent = error.message;
-}
-
 // ---- drawing: the map answers at once, all else once it is on the screen. Marks tell who measures.
-
-let asked = 0;
-// The next frame is painted when this is done; a frame's own callback would still hold it up.
-const painted = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
 
 async function show(delay = 0) {
   const turn = ++asked;
@@ -489,14 +373,6 @@ function tables(shown) {
 
 // ---- controls
 
-function options(select, names, first = 0) {
-  names.forEach((name, k) => {
-    const made = element("option", name);
-    made.value = String(k + first);
-    select.append(made);
-  });
-}
-
 function controlsFromState() {
   const told = {
     ratio: written(AXES.stiffness_ratio[state.ratio]),
@@ -508,7 +384,7 @@ function controlsFromState() {
     const box = byId(`field-${field.name}`);
     if (box && document.activeElement !== box) box.value = Number.isFinite(at[field.name]) ? String(Number(at[field.name].toPrecision(6))) : "";
   }
-  for (const kind of Object.keys(KINDS)) byId(`unit-${kind}`).value = chosenUnits[kind];
+  unitsFromState();
   const force = FIELDS.find((field) => field.name === "pretension"), named = byId("label-pretension");
   if (named) named.textContent = `Pretension, ${force.unit}`;
   for (const name of ["record", "compare", "index", "ratio", "period", "force"]) {
@@ -589,39 +465,14 @@ function connect() {
   // A slider being dragged asks for the history when it rests.
   for (const name of ["ratio", "period", "force"]) follow(name, "input", 120);
   if (about.served) fields();
-  byId("link").addEventListener("click", copyLink);
-  byId("theme").addEventListener("click", () => theme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
   byId("strong").addEventListener("change", () => { state.strong = byId("strong").checked; redraw("history"); });
   byId("strong").parentElement.hidden = !about.served;
   control.best.addEventListener("click", chooseBest);
   control.line.addEventListener("click", searchLine);
   control.line.hidden = !about.served;
-  unitControls();
-  byId("controls").addEventListener("submit", (event) => event.preventDefault());
+  connectPage();
   if (!about.served) {
     byId("histories").append(notice(`This file has no server behind it, so a click shows the peaks of its cell in the tables below. For histories: fdspec explore ${about.name}`));
-  }
-}
-
-// Other units are another view of the same numbers, so the address says them and the page reads it anew.
-function unitControls() {
-  for (const [kind, { title, units }] of Object.entries(KINDS)) {
-    const field = element("div"), label = element("label", title), select = element("select");
-    select.id = `unit-${kind}`;
-    label.htmlFor = select.id;
-    options(select, Object.keys(units));
-    for (const option of select.options) option.value = option.textContent;
-    select.addEventListener("change", () => {
-      const told = Object.fromEntries(new URLSearchParams(addressOf(state).slice(1)));
-      for (const one of Object.keys(KINDS)) delete told[one];
-      chosenUnits[kind] = select.value;
-      unitsInto(told);
-      history.pushState(null, "", "#" + new URLSearchParams(told));
-      readAddress();
-    });
-    field.className = "field";
-    field.append(label, select);
-    byId("unit-fields").append(field);
   }
 }
 
@@ -656,34 +507,4 @@ function typed(field, box) {
   show();
 }
 
-async function copyLink() {
-  const button = byId("link");
-  try {
-    await navigator.clipboard.writeText(location.href);
-    button.textContent = "Copied";
-  } catch {
-    button.textContent = "See the address bar";
-  }
-  setTimeout(() => { button.textContent = "Copy link"; }, 2000);
-}
-
-async function redraw(kind) {
-  for (const [id, made] of cards) if (!kind || id.startsWith(kind)) await draw(made);
-}
-
-// Light or dark, as the system has it until the reader says otherwise.
-function theme(name) {
-  document.documentElement.dataset.theme = name;
-  setLook(name === "dark" ? DARK : LIGHT);
-  byId("theme").textContent = name === "dark" ? "Light" : "Dark";
-  redraw().catch(complain);
-}
-
-// On paper pictures are as wide as the page, not as the window.
-const PAPER = 660;
-addEventListener("beforeprint", () => { for (const made of cards.values()) Plotly.relayout(made.plotted, { width: PAPER, autosize: false }); });
-addEventListener("afterprint", () => { for (const made of cards.values()) Plotly.relayout(made.plotted, { width: null, autosize: true }); });
-
-theme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
-connect();
-show();
+start();
