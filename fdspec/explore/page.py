@@ -67,9 +67,14 @@ def plotly_script() -> str:
     return str(get_plotlyjs())
 
 
+def own_script(scripts: tuple[str, ...]) -> str:
+    """Return the shared scripts and these as one, in strict mode, whose names nobody else sees."""
+    own = "\n".join(_asset(name) for name in (*SHARED, *scripts))
+    return f'(() => {{\n"use strict";\n{own}\n}})();\n'
+
+
 def _page(content: Shown, about: str, library: str, numbers: str, policy: str) -> str:
     frames = not isinstance(content, BuildingContent)
-    own = "\n".join(_asset(name) for name in (*SHARED, *(FRAMES if frames else BUILDINGS)))
     kind = "frames" if frames else "buildings"
     parts = {
         "controls": _asset(f"controls-{kind}.html"),
@@ -82,7 +87,7 @@ def _page(content: Shown, about: str, library: str, numbers: str, policy: str) -
         "about": f'<script type="application/json" id="about">{about}</script>',
         "numbers": numbers,
         "library": library,
-        "script": f'<script>\n(() => {{\n"use strict";\n{own}\n}})();\n</script>',
+        "script": f"<script>\n{own_script(FRAMES if frames else BUILDINGS)}</script>",
     }
     text = _asset("page.html")
     for name, part in parts.items():

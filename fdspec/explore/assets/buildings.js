@@ -213,7 +213,7 @@ function tables(everything) {
   const rows = [...AXES.storey.keys()].reverse().map((k) => [String(AXES.storey[k]), ...about.quantities.map((quantity) =>
     written(said(everything.map(({ numbers }) => overHeight(numbers, quantity, state)[k]), 0.5), quantity.unit))]);
   const list = element("dl");
-  everything.forEach(({ k, name }) => list.append(element("dt", name), element("dd", originWords(k))));
+  for (const { k, name } of everything) list.append(element("dt", name), element("dd", originWords(k)));
   for (const cube of about.cubes) {
     for (const [term, text] of [["Cube", [cube.name, cube.title].filter(Boolean).join(": ")], ["Made", cube.made], ["Note", cube.comment]]) {
       if (text) list.append(element("dt", term), element("dd", text));
