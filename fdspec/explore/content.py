@@ -167,8 +167,8 @@ def _check(cube: xr.Dataset, name: str) -> None:
     dims = {str(dim) for dim in cube.dims}
     if "building" in dims:
         raise InvalidInput(
-            f"{name} is a cube of buildings, over {', '.join(BUILDING_DIMS)}; the page shows cubes of "
-            "single-storey frames, as fdspec.sweep makes them"
+            f"{name} is a cube of buildings, over {', '.join(BUILDING_DIMS)}; BuildingContent "
+            "takes it, this takes cubes of single-storey frames"
         )
     if "time" in dims:
         raise InvalidInput(f"{name} is a history; the page shows cubes, as fdspec sweep makes them")

@@ -90,7 +90,23 @@ function theme(name) {
   redraw().catch(complain);
 }
 
-// On paper pictures are as wide as the page, not as the window.
-const PAPER = 660;
-addEventListener("beforeprint", () => { for (const made of cards.values()) Plotly.relayout(made.plotted, { width: PAPER, autosize: false }); });
-addEventListener("afterprint", () => { for (const made of cards.values()) Plotly.relayout(made.plotted, { width: null, autosize: true }); });
+// On paper pictures have the size of the page, not of the window, and the ground is white. Sizes are those of page.css.
+const PAPER = { map: [660, 330], curve: [660, 250], history: [660, 420], profile: [312, 300] };
+let themeOnScreen = null;
+addEventListener("beforeprint", () => {
+  themeOnScreen = document.documentElement.dataset.theme;
+  document.documentElement.dataset.theme = "light";
+  setLook(LIGHT);
+  for (const made of cards.values()) {
+    const { data, layout: drawn } = made.plot(), [width, height] = PAPER[made.look];
+    Plotly.react(made.plotted, data, { ...drawn, width, height, autosize: false }, CONFIG);
+  }
+  // Who reads it on paper cannot open what is closed; where the numbers come from must not be missing.
+  const origin = byId("origin-of-numbers");
+  if (origin) { origin.dataset.was = origin.open ? "open" : ""; origin.open = true; }
+});
+addEventListener("afterprint", () => {
+  const origin = byId("origin-of-numbers");
+  if (origin) origin.open = origin.dataset.was === "open";
+  theme(themeOnScreen);
+});
