@@ -51,7 +51,7 @@ def test_histories_that_did_not_end_well_are_no_numbers(cube: xr.Dataset) -> Non
 
 
 def test_intensities_have_a_slider(cube: xr.Dataset) -> None:
-    one = cube[["peak_drift", "status"]].drop_vars("intensity")
+    one = cube[["peak_drift", "status"]]
     twice = one.assign(peak_drift=2.0 * one["peak_drift"])
     two = xr.concat([one, twice], "intensity", coords="minimal", compat="override")
     two = two.assign_coords(intensity=[1.0, 2.0])
