@@ -66,13 +66,13 @@ def test_the_file_prints_on_a4_with_nothing_cut(sheets: list[np.ndarray], tmp_pa
     for words in (
         "period without brace, s",
         "pretension, kN",
-        "best pretension, kN",
         "Peak absolute acceleration",
         "Where the numbers come from",
         "floor mass 20 t",
     ):
         assert words in told, words
-    assert told.count("pretension, kN") >= 3  # the axis of each picture is whole
+    # The axes of both curves over pretension are whole; names that stand upright come out letter by letter.
+    assert told.count("pretension, kN") >= 2
     assert "Search the best line" not in told
 
 

@@ -129,3 +129,26 @@ def test_an_index_without_a_sign_keeps_the_even_colours(wide: Watched, address: 
     page = wide.open(address)
     assert drawn(page, "map-0")["colorscale"] == "Viridis"
     assert drawn(page, "map-0", 1)["type"] == "scatter"
+
+
+OVERLAPS = """() => [...document.querySelectorAll(".plot")].flatMap((plot) => {
+    const box = (one) => one.getBoundingClientRect();
+    const ticks = [..."ytick y2tick y3tick y4tick".split(" ")]
+        .flatMap((name) => [...plot.querySelectorAll(`.${name} text`)].map(box));
+    const apart = (a, b) => a.right - 1 <= b.left || b.right - 1 <= a.left
+        || a.bottom - 1 <= b.top || b.bottom - 1 <= a.top;
+    return [...plot.querySelectorAll(".infolayer [class*=title]")]
+        .filter((title) => box(title).width && ticks.some((tick) => !apart(box(title), tick)))
+        .map((title) => `${plot.parentElement.id}: ${title.textContent}`);
+})"""
+"""Names of axes that stand over numbers of the axes."""
+
+
+@pytest.mark.parametrize("size", ["wide", "narrow"])
+def test_long_numbers_leave_the_names_of_axes_alone(
+    request: pytest.FixtureRequest, address: str, size: str
+) -> None:
+    watched = request.getfixturevalue(size)
+    page = watched.open(f"{address}#force=N&length=m&acceleration=%25g&index=reduction_to_bare")
+    assert page.evaluate(OVERLAPS) == []
+    assert page.locator("#force-value").inner_text() == "110\u202f000\xa0N"

@@ -39,7 +39,7 @@ function layout(more) {
 }
 
 function axis(title, more) {
-  return { title: { text: title, standoff: 6 }, gridcolor: LOOK.grid, zeroline: false, exponentformat: "none", separatethousands: true, ticks: "outside", ticklen: 3, ...more };
+  return { title: { text: title, standoff: 6 }, gridcolor: LOOK.grid, zeroline: false, automargin: true, exponentformat: "none", separatethousands: true, ticks: "outside", ticklen: 3, ...more };
 }
 
 // A long title in lines that fit the height of a picture.

@@ -32,7 +32,7 @@ function contourPlot(s, index, numbers, scale, best) {
     },
     {
       type: "scatter", mode: "lines+markers", x: best.x, y: best.y, hoverinfo: "skip", cliponaxis: false,
-      line: { color: index.neutral === null ? "#fff" : "#3b4754", width: 1.5 }, marker: { color: "#fff", size: 5, line: { color: "#000", width: 1 } },
+      line: { color: "#fff", width: 1.5 }, marker: { color: "#fff", size: 5, line: { color: "#000", width: 1 } },
     },
     {
       type: "scatter", mode: "markers", x: point.x, y: point.y, hoverinfo: "skip", cliponaxis: false,
@@ -43,7 +43,8 @@ function contourPlot(s, index, numbers, scale, best) {
       marker: { symbol: "x-open", color: "#fff", size: 11, line: { width: 2 } },
     },
   ];
-  if (index.neutral !== null) data.splice(1, 0, neutralLine(index, data[0]));
+  // White is the middle of two colours: there the line of the best has a dark edge.
+  if (index.neutral !== null) data.splice(1, 0, neutralLine(index, data[0]), { ...data[1], mode: "lines", line: { color: "#1b2733", width: 3.5 } });
   return { data, layout: layout({ xaxis: axis("period without brace, s", { range: ends(AXES.period) }), yaxis: axis(`pretension, ${FORCE}`, { range: ends(AXES.pretension) }) }) };
 }
 

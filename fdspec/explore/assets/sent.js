@@ -62,6 +62,8 @@ function nearest(axis, value) {
 function written(value, unit) {
   if (typeof value === "string") return value;
   if (value === null || value === undefined || !Number.isFinite(value)) return "unknown";
-  const digits = Number.isInteger(value) && Math.abs(value) < 1e6 ? String(value) : String(Number(value.toPrecision(4)));
+  const bare = Number.isInteger(value) && Math.abs(value) < 1e6 ? String(value) : String(Number(value.toPrecision(4)));
+  // Thousands stand apart from five digits on.
+  const digits = /^-?\d{5,}$/.test(bare) ? bare.replace(/\B(?=(\d{3})+$)/g, "\u202f") : bare;
   return unit ? `${digits}\u00a0${unit}` : digits;
 }
