@@ -1,4 +1,4 @@
-"""Text of unknown origin, made safe for a terminal: names and comments come out of other people's files."""
+"""Text for people: made safe for a terminal, names of variables as words, numbers cut to what tells."""
 
 from __future__ import annotations
 
@@ -10,6 +10,32 @@ UNSAFE: Final = re.compile(
     "\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069"  # what turns the direction of writing, or starts a line
     "\ud800-\udfff]"  # halves of characters, as in paths that are no UTF-8: they cannot be printed at all
 )
+
+
+LONG: Final = re.compile(r"(?<![\w.])\d+\.\d+(?:[eE][+-]?\d+)?(?![\w.]*\w)")
+"""A number with a decimal point that stands alone: not part of a version, a name or a checksum."""
+
+
+def in_words(name: str) -> str:
+    """Return the name of a variable, an axis or a status as words.
+
+    Examples
+    --------
+    >>> in_words("stiffness_ratio")
+    'stiffness ratio'
+    """
+    return name.replace("_", " ")
+
+
+def rounded(text: str) -> str:
+    """Return the text with its decimal numbers to six digits, as many as a reader takes in.
+
+    Examples
+    --------
+    >>> rounded("scaled by 1.6280035485758506 to a PGA of 3.38329425 m/s2")
+    'scaled by 1.628 to a PGA of 3.38329 m/s2'
+    """
+    return LONG.sub(lambda found: f"{float(found[0]):.6g}", text)
 
 
 def printable(text: str) -> str:

@@ -89,7 +89,7 @@ share = rates.deaggregation.sel(pretension=best.by_risk)
 middle = np.sqrt(share.segment_from * share.segment_to)
 right.bar(middle, 100 * share, width=0.15 * middle, color="#009E73")
 right.set_xscale("log")
-right.set_xlabel("peak ground acceleration, m/s2")
+right.set_xlabel("peak ground acceleration, m/s²")
 right.set_ylabel("share of the rate, %")
 figure
 

@@ -8,6 +8,7 @@ from fdspec.cli.as_json import echo_json, json_option
 from fdspec.cli.echo import echo
 from fdspec.cli.table import BAD, GOOD, grouped, styled
 from fdspec.errors import FdspecError
+from fdspec.printable import in_words
 
 WORDS = {True: "ok", False: "FAILED", None: "-"}
 
@@ -35,8 +36,9 @@ def check_cube(cube: str, as_json: bool, everything: bool) -> None:
         return
     failed = []
     for finding in check(cube):
+        told = in_words(finding.told) if finding.what == "statuses" else finding.told
         word = styled(f"{WORDS[finding.passed]:6s}", COLOURS[finding.passed])
-        echo(f"{word}  {finding.what:9s}  {finding.told}")
+        echo(f"{word}  {finding.what:9s}  {told}")
         if finding.passed is False:
             failed.append(finding.what)
         if finding.what == "statuses" and not finding.passed:

@@ -6,6 +6,7 @@ import click
 
 from fdspec.cli.echo import echo
 from fdspec.cli.output import force_option, free
+from fdspec.printable import in_words
 
 
 @click.command()
@@ -29,4 +30,6 @@ def combine(cubes: tuple[str, ...], output: str, along: str, force: bool) -> Non
     path = free(output, force=force)
     joined = store.combine([store.open(cube) for cube in cubes], along)
     store.save(joined, path, overwrite=force)
-    echo(f"{path}: {' x '.join(f'{joined.sizes[dim]} {dim}' for dim in joined['status'].dims)}")
+    echo(
+        f"{path}: {' x '.join(f'{joined.sizes[dim]} {in_words(str(dim))}' for dim in joined['status'].dims)}"
+    )

@@ -89,18 +89,16 @@ def export(
 
 def _write_page(cube: str, path: Path, record: str | None) -> None:
     from fdspec import store
-    from fdspec.store.suitable import require_cube
 
     try:
-        from fdspec.explore.content import Content
+        from fdspec.explore.opened import content_of
         from fdspec.explore.page import write_page
     except ModuleNotFoundError as error:
         raise InvalidInput(f"a page needs {error.name}: pip install 'fdspec[explore]'") from None
     opened = store.open(cube)
-    require_cube(opened, cube, "pages")
     if record is not None and "record" in opened.dims:
         names = [str(name) for name in opened["record"].values]
         if record not in names:
             raise InvalidInput(f"{cube} has no record {record!r}; it has {', '.join(names)}")
         opened = opened.isel(record=[names.index(record)])
-    write_page(Content(opened, Path(cube).name), path)
+    write_page(content_of(opened, cube, Path(cube).name), path)

@@ -3,16 +3,26 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import click
 
 from fdspec.cli.echo import echo
 from fdspec.cli.output import PICTURES, force_option, free, save_picture
 from fdspec.cli.select_option import selected
+from fdspec.cli.table import table as aligned
+from fdspec.printable import in_words
 
 if TYPE_CHECKING:
     import xarray as xr
+
+LABELS: Final = {
+    "median_error": "error of ln median",
+    "dispersion_error": "error of dispersion",
+    "annual_rate": "rate a year",
+    "probability_50_years": "in 50 years",
+}
+"""Variable -> head of its column, where its name does not do."""
 
 
 @click.command()
@@ -63,10 +73,9 @@ def fragility(
         fit = fit.merge(rates, combine_attrs="override")
     frame = shown.reset_coords(drop=True).expand_dims("curve").to_dataframe()
     table = frame.reset_index().drop(columns="curve")
-    echo(table.to_string(index=False, float_format=lambda value: f"{value:.4g}"))
+    echo(_for_people(table, shown))
     if rates is not None and rates["annual_rate"].size == 1:
-        for _, row in rates["deaggregation"].squeeze().to_dataframe().iterrows():
-            echo(f"{row.segment_from:10.4g} to {row.segment_to:10.4g}  {row.deaggregation:6.1%}")
+        echo(f"\n{_segments(rates)}")
     if path is None:
         return
     if path.suffix.lower() in PICTURES:
@@ -74,6 +83,28 @@ def fragility(
     else:
         _write(fit, table, path)
     echo(f"{path}")
+
+
+def _for_people(numbers: Any, shown: xr.Dataset) -> str:
+    """Return a line for each frame, words and units above it."""
+    head = [LABELS.get(str(name), in_words(str(name))) for name in numbers.columns]
+    for k, name in enumerate(map(str, numbers.columns)):
+        unit = str(shown[name].attrs.get("units", "1"))
+        head[k] += "" if unit in ("1", "") or name in LABELS else f" {unit}"
+    rows = [
+        [f"{value:.4g}" if isinstance(value, float) else str(value) for value in row]
+        for row in numbers.itertuples(index=False)
+    ]
+    return aligned(head, rows)
+
+
+def _segments(rates: xr.Dataset) -> str:
+    """Return which intensities the rate comes from."""
+    rows = [
+        [f"{row.segment_from:.4g}", f"{row.segment_to:.4g}", f"{row.deaggregation:.1%}"]
+        for _, row in rates["deaggregation"].squeeze().to_dataframe().iterrows()
+    ]
+    return aligned(["intensity from", "to", "share of the rate"], rows)
 
 
 def _write(fit: xr.Dataset, table: Any, path: Path) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 import click
 
 from fdspec.cli.table import table
+from fdspec.printable import in_words
 from fdspec.units import G
 
 if TYPE_CHECKING:
@@ -54,7 +55,13 @@ def levels_of(given: Sequence[str]) -> list[float]:
 def told(target: Target, per_pretension: float) -> str:
     """Say what meets the limits, or which cannot be met and by how much."""
     rows = [
-        [f"{one.level:g}", one.name, f"{one.value:.4g}", f"{one.limit:.4g}", f"{one.value / one.limit:.0%}"]
+        [
+            f"{one.level:g}",
+            in_words(one.name),
+            f"{one.value:.4g}",
+            f"{one.limit:.4g}",
+            f"{one.value / one.limit:.0%}",
+        ]
         for one in target.demands
     ]
     shown = table(["level", "demand", "value", "limit", "used"], rows, left=("demand",))
@@ -64,8 +71,8 @@ def told(target: Target, per_pretension: float) -> str:
     if not target.met:
         worst = target.worst
         return (
-            f"No slip force meets all limits: {worst.name} at level {worst.level:g} is over its limit by "
-            f"{worst.value / worst.limit - 1.0:.1%} at best, with a {at}.\n\n{shown}"
+            f"No slip force meets all limits: {in_words(worst.name)} at level {worst.level:g} is over its "
+            f"limit by {worst.value / worst.limit - 1.0:.1%} at best, with a {at}.\n\n{shown}"
         )
     bands = "; ".join(
         f"{start / 1e3:.4g} kN and more"

@@ -12,6 +12,7 @@ import numpy as np
 from fdspec.cli.storey_columns import STOREY_COLUMNS
 from fdspec.cli.table import counted, filled, grouped, seconds, size, table
 from fdspec.measures import best_damper
+from fdspec.printable import in_words
 from fdspec.units import G
 
 if TYPE_CHECKING:
@@ -146,7 +147,9 @@ def statuses(cube: xr.Dataset) -> tuple[str, int]:
     from fdspec.measures.statuses import failed_cells, status_counts
 
     counts = status_counts(cube)
-    told = "status: " + ", ".join(f"{grouped(number)} {meaning}" for meaning, number in counts.items())
+    told = "status: " + ", ".join(
+        f"{grouped(number)} {in_words(meaning)}" for meaning, number in counts.items()
+    )
     log.info("%s", told)
     lines = [told]
     for number, cell in enumerate(failed_cells(cube)):

@@ -9,6 +9,7 @@ import click
 from fdspec.cli.echo import echo
 from fdspec.cli.output import force_option, free
 from fdspec.cli.record_options import AboutFile, reading_options, record_about
+from fdspec.printable import rounded
 
 if TYPE_CHECKING:
     from fdspec.model.motion import GroundMotion
@@ -102,4 +103,4 @@ def _written(motion: GroundMotion, path: str) -> str:
     from fdspec.units import G
 
     numbers = f"{motion.n} samples, dt {motion.dt:g} s, PGA {motion.pga / G:.4g} g"
-    return "\n".join([f"{path}: {numbers}", *(f"  {step}" for step in motion.history)])
+    return "\n".join([f"{path}: {numbers}", *(f"  {rounded(step)}" for step in motion.history)])

@@ -13,6 +13,7 @@ from fdspec.cli.echo import echo
 from fdspec.cli.output import PICTURES, force_option, free, save_picture
 from fdspec.cli.record_options import AboutFile, reading_options, record_about
 from fdspec.errors import RecordError
+from fdspec.printable import in_words, rounded
 
 if TYPE_CHECKING:
     from fdspec.model.motion import GroundMotion
@@ -20,6 +21,21 @@ if TYPE_CHECKING:
 
 DAMPING: Final = (0.02, 0.05, 0.10)
 """Damping ratios of the picture's spectra."""
+
+LABELS: Final = {
+    "study_pga_g": ("PGA in the study", "g"),
+    "study_duration_s": ("duration in the study", "s"),
+    "vs30_m_per_s": ("shear wave velocity, upper 30 m", "m/s"),
+    "pga_g": ("PGA", "g"),
+    "pgv_m_per_s": ("PGV", "m/s"),
+    "pgd_m": ("PGD", "m"),
+    "arias_m_per_s": ("Arias intensity", "m/s"),
+    "significant_duration_s": ("significant duration", "s"),
+    "cav_m_per_s": ("cumulative absolute velocity", "m/s"),
+    "dt_s": ("time step", "s"),
+    "duration_s": ("duration", "s"),
+}
+"""Name in JSON -> words and unit for people; names that are words already are left out."""
 
 
 @click.command("show")
@@ -150,12 +166,25 @@ def _taken(record: str, about: AboutFile, as_json: bool) -> list[str]:
 
 
 def _lines(shown: dict[str, object]) -> str:
-    width = max(map(len, shown))
+    """Return a line for each thing that is known, its unit behind it."""
     told = []
+    width = max(len(_label(key)) for key in shown)
     for key, value in shown.items():
-        lines = value if isinstance(value, list) else [f"{value:.6g}" if isinstance(value, float) else value]
+        lines = _written(key, value)
         told += [
             f"{head:<{width}}  {line}".rstrip()
-            for head, line in zip([key, *[""] * len(lines)], lines, strict=False)
+            for head, line in zip([_label(key), *[""] * len(lines)], lines, strict=False)
         ]
     return "\n".join(told)
+
+
+def _label(key: str) -> str:
+    return LABELS[key][0] if key in LABELS else in_words(key)
+
+
+def _written(key: str, value: object) -> list[str]:
+    if isinstance(value, list):
+        # What a file says of itself is quoted as it stands; the steps of a history carry every digit.
+        return [rounded(line) if key == "history" else line for line in value]
+    number = f"{value:.6g}" if isinstance(value, float) else f"{value}"
+    return [f"{number} {LABELS[key][1]}" if key in LABELS else number]

@@ -11,6 +11,7 @@ from fdspec.cli.echo import echo
 from fdspec.cli.output import force_option, free
 from fdspec.cli.table import table
 from fdspec.errors import InvalidInput
+from fdspec.printable import in_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -19,7 +20,11 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("cube", metavar="CUBE")
 @click.option(
-    "--variable", "variables", multiple=True, metavar="NAME", help="A result; repeat it.  [default: all]"
+    "--variable",
+    "variables",
+    multiple=True,
+    metavar="NAME",
+    help="A result, such as 'peak acceleration'; repeat it.  [default: all]",
 )
 @click.option(
     "--percentile",
@@ -65,7 +70,8 @@ def summary(
         raise InvalidInput(f"{cube} is no cube; a summary needs what fdspec sweep writes")
     for place in places:
         opened = _at(opened, place)
-    told = compute(opened, variables or None, percentiles=percentiles or PERCENTILES)
+    wanted = [name.strip().replace(" ", "_") for name in variables]
+    told = compute(opened, wanted or None, percentiles=percentiles or PERCENTILES)
     if path is not None:
         if path.suffix.lower() == ".csv":
             store.export(told, path)
@@ -122,9 +128,11 @@ def _table(told: xr.Dataset) -> str:
         if by_storey and "storey" in array.dims:
             for k in reversed(range(array.sizes["storey"])):
                 one = array.isel(storey=k)
-                rows.append([str(name), unit, str(int(told["storey"].values[k])), *_cells(one, statistics)])
+                rows.append(
+                    [in_words(str(name)), unit, str(int(told["storey"].values[k])), *_cells(one, statistics)]
+                )
         else:
-            rows.append([str(name), unit, *([""] if by_storey else []), *_cells(array, statistics)])
+            rows.append([in_words(str(name)), unit, *([""] if by_storey else []), *_cells(array, statistics)])
     return table(head, rows, left=("result", "unit"))
 
 

@@ -63,17 +63,22 @@ class Content:
         cube = self.cube
         return {
             "name": self.name,
-            "title": str(cube.attrs.get("title", "")),
-            "made": str(cube.attrs.get("history", "")),
-            "comment": str(cube.attrs.get("comment", "")),
-            "frame": frame_of(cube),
+            "cubes": [
+                {
+                    "name": self.name,
+                    "title": str(cube.attrs.get("title", "")),
+                    "made": str(cube.attrs.get("history", "")),
+                    "comment": str(cube.attrs.get("comment", "")),
+                    "frame": frame_of(cube),
+                }
+            ],
             "axes": {
                 "stiffness_ratio": cube["stiffness_ratio"].values.tolist(),
                 "pretension": (cube["pretension"].values / 1e3).tolist(),
                 "period": cube["period"].values.tolist(),
                 "slip_force": (cube["slip_force"].values / 1e3).tolist(),
             },
-            "records": [self._about_record(k) for k in range(len(self.records))],
+            "records": [about_record(cube, k) for k in range(len(self.records))],
             "indices": [
                 {
                     "name": index.name,
@@ -82,20 +87,11 @@ class Content:
                     "best": index.best,
                     "searched": bool(index.measure),
                     "colours": list(index.colours),
+                    "neutral": index.neutral,
                 }
                 for index in self.indices
             ],
         }
-
-    def _about_record(self, k: int) -> dict[str, Any]:
-        one = self.cube.isel(record=k)
-        told: dict[str, Any] = {"name": self.records[k]}
-        for name in ("source", "event"):
-            told[name] = str(one[name].item()) if name in one.coords else ""
-        for name, factor in (("pga", 1.0 / G), ("duration", 1.0), ("scale_factor", 1.0)):
-            value = float(one[name].item()) * factor if name in one.coords else float("nan")
-            told[name] = value if np.isfinite(value) else None
-        return told
 
     def record(self, k: int) -> bytes:
         """Return the numbers of one record, packed and compressed.
@@ -120,6 +116,19 @@ class Content:
                 arrays[name] = one[variable].isel(record=0).transpose(*dims).values / G
         # Level 6 takes three times as long for a twentieth less.
         return gzip.compress(pack({"record": self.records[k]}, arrays), compresslevel=1, mtime=0)
+
+
+def about_record(cube: xr.Dataset, k: int) -> dict[str, Any]:
+    """Return what a cube tells of its k-th record; its ``cube`` is the first of the page's."""
+    one = cube.isel(record=k)
+    name = str(one["record"].item())
+    told: dict[str, Any] = {"name": name, "record": name, "cube": 0}
+    for key in ("source", "event"):
+        told[key] = str(one[key].item()) if key in one.coords else ""
+    for key, factor in (("pga", 1.0 / G), ("duration", 1.0), ("scale_factor", 1.0)):
+        value = float(one[key].item()) * factor if key in one.coords else float("nan")
+        told[key] = value if np.isfinite(value) else None
+    return told
 
 
 FRAME: Final = (
@@ -158,8 +167,8 @@ def _check(cube: xr.Dataset, name: str) -> None:
     dims = {str(dim) for dim in cube.dims}
     if "building" in dims:
         raise InvalidInput(
-            f"{name} is a cube of buildings, over {', '.join(BUILDING_DIMS)}; the page shows cubes of "
-            "single-storey frames, as fdspec.sweep makes them"
+            f"{name} is a cube of buildings, over {', '.join(BUILDING_DIMS)}; BuildingContent "
+            "takes it, this takes cubes of single-storey frames"
         )
     if "time" in dims:
         raise InvalidInput(f"{name} is a history; the page shows cubes, as fdspec sweep makes them")

@@ -25,6 +25,7 @@ class Index:
     is and no best pretension can be told. Where `fdspec.best_pretension` can search between the cube's
     pretensions, `measure` is its name for the index and `refined` reads the index off what it returns.
     Colours end at `colours`, low and high, where the index goes far beyond what anybody would choose.
+    `neutral` is the value at which the damper neither helps nor harms: colours part there.
     """
 
     name: str
@@ -36,6 +37,7 @@ class Index:
     measure: str = ""
     refined: Values | None = None
     colours: tuple[float | None, float | None] = (None, None)
+    neutral: float | None = None
 
 
 def _scaled(name: str, factor: float) -> Values:
@@ -61,6 +63,7 @@ def _judged_index(name: str, title: str) -> Index:
         name,
         lambda best: best["index"],
         (None, 2.0),
+        1.0,
     )
 
 
@@ -85,6 +88,7 @@ INDICES: Final = (
         "acceleration",
         lambda best: 100.0 * (1.0 - best["index"]),
         (-100.0, None),
+        0.0,
     ),
     Index(
         "reduction_to_braced",
@@ -96,6 +100,7 @@ INDICES: Final = (
         "acceleration",
         lambda best: 100.0 * (1.0 - best["peak_acceleration"] / best["braced_acceleration"]),
         (-100.0, None),
+        0.0,
     ),
     Index(
         "displacement",

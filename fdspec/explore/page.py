@@ -9,10 +9,21 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Final
 
+from fdspec.explore.beside import Beside
+from fdspec.explore.building_content import BuildingContent
 from fdspec.explore.content import Content, embedded
 
-SCRIPTS: Final = ("numbers.js", "best.js", "words.js", "plots.js", "histories.js", "downloads.js", "page.js")
-"""In the order of their use; together they are one script."""
+Shown = Content | Beside | BuildingContent
+"""What a page can be made of."""
+
+SHARED: Final = ("units.js", "sent.js", "looks.js", "elements.js", "downloads.js", "cards.js", "controls.js")
+"""Scripts of every page, in the order of their use."""
+
+FRAMES: Final = ("numbers.js", "best.js", "words.js", "plots.js", "histories.js", "tables.js", "frames.js")
+"""Scripts of the page of single-storey frames, which come after the shared ones."""
+
+BUILDINGS: Final = ("buildings.js",)
+"""Of the page of buildings likewise."""
 
 SKETCH: Final = (
     "Drawing of a frame: a floor on columns, a chevron brace below it, and between them the friction damper, "
@@ -27,20 +38,20 @@ NO_NETWORK: Final = (
 compiles functions ('unsafe-eval') and makes pictures of itself (data:, blob:)."""
 
 
-def served_page(content: Content) -> str:
+def served_page(content: Shown) -> str:
     """Return the page whose histories, and all records but the first, come from the server that sent it."""
     about = {**content.about, "served": True}
     return _page(content, embedded(about), '<script src="plotly.js"></script>', _numbers(content, 1), "")
 
 
-def written_page(content: Content) -> str:
+def written_page(content: Shown) -> str:
     """Return the page that holds all records and the drawing library: it needs nothing else."""
     about = {**content.about, "served": False}
     policy = f'<meta http-equiv="Content-Security-Policy" content="{NO_NETWORK}">'
     return _page(content, embedded(about), f"<script>{plotly_script()}</script>", _numbers(content), policy)
 
 
-def write_page(content: Content, path: Path) -> None:
+def write_page(content: Shown, path: Path) -> None:
     """Write the page that needs no server to an HTML file, as a whole or not at all."""
     from fdspec.store.replacing import replacing
 
@@ -56,9 +67,19 @@ def plotly_script() -> str:
     return str(get_plotlyjs())
 
 
-def _page(content: Content, about: str, library: str, numbers: str, policy: str) -> str:
-    own = "\n".join(_asset(name) for name in SCRIPTS)
+def own_script(scripts: tuple[str, ...]) -> str:
+    """Return the shared scripts and these as one, in strict mode, whose names nobody else sees."""
+    own = "\n".join(_asset(name) for name in (*SHARED, *scripts))
+    return f'(() => {{\n"use strict";\n{own}\n}})();\n'
+
+
+def _page(content: Shown, about: str, library: str, numbers: str, policy: str) -> str:
+    frames = not isinstance(content, BuildingContent)
+    kind = "frames" if frames else "buildings"
     parts = {
+        "controls": _asset(f"controls-{kind}.html"),
+        "options": _asset("options-frames.html") if frames else "",
+        "help": _asset(f"help-{kind}.html"),
         "policy": policy,
         "title": html.escape(f"{content.name} - fdspec explore"),
         "style": f"<style>\n{_asset('page.css')}</style>",
@@ -66,7 +87,7 @@ def _page(content: Content, about: str, library: str, numbers: str, policy: str)
         "about": f'<script type="application/json" id="about">{about}</script>',
         "numbers": numbers,
         "library": library,
-        "script": f'<script>\n(() => {{\n"use strict";\n{own}\n}})();\n</script>',
+        "script": f"<script>\n{own_script(FRAMES if frames else BUILDINGS)}</script>",
     }
     text = _asset("page.html")
     for name, part in parts.items():
@@ -77,7 +98,7 @@ def _page(content: Content, about: str, library: str, numbers: str, policy: str)
     return text
 
 
-def _numbers(content: Content, first: int | None = None) -> str:
+def _numbers(content: Shown, first: int | None = None) -> str:
     """Return the numbers of the first records, of all unless a count is given, as the page holds them."""
     return "\n".join(
         f'<script type="text/plain" id="record-{k}">{base64.b64encode(content.record(k)).decode()}</script>'

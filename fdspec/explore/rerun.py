@@ -48,6 +48,10 @@ class Rerun:
         self.motions = Motions(cube, files or {}, folder)
         self.frame, self.friction = _parameters(cube)
 
+    def of(self, record: int) -> tuple[Rerun, int]:
+        """Return who runs the histories of a record, this, and its position here."""
+        return self, record
+
     def building(self, stiffness_ratio: int, pretension: int, period: int) -> Building:
         """Return the frame at these positions of the cube."""
         at = self.cube.coords.to_dataset().isel(

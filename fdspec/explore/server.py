@@ -20,9 +20,9 @@ from tornado.web import Application, HTTPError, RequestHandler
 
 from fdspec import store
 from fdspec.errors import FdspecError, InvalidInput, StoreError
+from fdspec.explore.beside import Reruns
 from fdspec.explore.best import packed_best
-from fdspec.explore.content import Content
-from fdspec.explore.page import plotly_script, served_page
+from fdspec.explore.page import Shown, plotly_script, served_page
 from fdspec.explore.point import FIELDS, packed_point, point_of
 from fdspec.explore.rerun import Rerun
 
@@ -46,14 +46,19 @@ LOOPBACK_NAMES: Final = r"(localhost|127\.\d+\.\d+\.\d+|\[::1\])"
 
 
 def serve(
-    content: Content, rerun: Rerun, *, host: str = "127.0.0.1", port: int = 0, ready: Callable[[str], None]
+    content: Shown,
+    rerun: Rerun | Reruns | None,
+    *,
+    host: str = "127.0.0.1",
+    port: int = 0,
+    ready: Callable[[str], None],
 ) -> None:
     """Serve the page until this is interrupted.
 
     Parameters
     ----------
     content, rerun
-        What the page shows, and who runs its histories.
+        What the page shows, and who runs its histories; None where nobody does.
     host : str
         Address to bind to. On loopback, requests under other names are refused.
     port : int
@@ -69,7 +74,9 @@ def serve(
     asyncio.run(_serve(content, rerun, host, port, ready))
 
 
-async def _serve(content: Content, rerun: Rerun, host: str, port: int, ready: Callable[[str], None]) -> None:
+async def _serve(
+    content: Shown, rerun: Rerun | Reruns | None, host: str, port: int, ready: Callable[[str], None]
+) -> None:
     try:
         sockets = bind_sockets(port, host)
     except OSError as error:
@@ -81,8 +88,9 @@ async def _serve(content: Content, rerun: Rerun, host: str, port: int, ready: Ca
     server.add_sockets(sockets)
     bound = sockets[0].getsockname()[1]
     ready(f"http://{f'[{host}]' if ':' in host else host}:{bound}/")
-    # The kernels come from their cache while the reader looks at the page.
-    threading.Thread(target=_warm, name="fdspec-page-warm", daemon=True).start()
+    if rerun is not None:
+        # The kernels come from their cache while the reader looks at the page.
+        threading.Thread(target=_warm, name="fdspec-page-warm", daemon=True).start()
     await asyncio.Event().wait()
 
 
@@ -96,7 +104,7 @@ def _warm() -> None:
         import_module(name)
 
 
-def application(content: Content, rerun: Rerun, host: str) -> Application:
+def application(content: Shown, rerun: Rerun | Reruns | None, host: str) -> Application:
     """Return the pages that the server answers."""
     page = served_page(content).encode()
     routes: list[Any] = [
@@ -107,11 +115,14 @@ def application(content: Content, rerun: Rerun, host: str) -> Application:
             {"body": plotly_script().encode(), "kind": "text/javascript; charset=utf-8", "keep": True},
         ),
         (r"/record/([0-9]+)", _Record, {"content": content}),
-        (r"/history", _History, {"rerun": rerun}),
-        (r"/history\.nc", _HistoryFile, {"rerun": rerun}),
-        (r"/point", _Point, {"rerun": rerun}),
-        (r"/best", _Best, {"rerun": rerun}),
     ]
+    if rerun is not None:
+        routes += [
+            (r"/history", _History, {"rerun": rerun}),
+            (r"/history\.nc", _HistoryFile, {"rerun": rerun}),
+            (r"/point", _Point, {"rerun": rerun}),
+            (r"/best", _Best, {"rerun": rerun}),
+        ]
     names = LOOPBACK_NAMES if is_loopback(host) else r".*"
     # Threads of this name do not hold the process when it is told to end: see fdspec.cli.main.
     bench = ThreadPoolExecutor(AT_ONCE, thread_name_prefix="fdspec-page")
@@ -166,7 +177,7 @@ class _Text(_Answer):
 
 
 class _Record(_Answer):
-    def initialize(self, content: Content) -> None:
+    def initialize(self, content: Shown) -> None:
         self.content = content
 
     async def get(self, position: str) -> None:
@@ -189,7 +200,7 @@ class _Computed(_Answer):
 
     kind = "application/octet-stream"
 
-    def initialize(self, rerun: Rerun) -> None:
+    def initialize(self, rerun: Rerun | Reruns) -> None:
         self.rerun = rerun
 
     async def get(self) -> None:
@@ -239,31 +250,33 @@ class _Computed(_Answer):
             raise HTTPError(400)
         return int(text)
 
-    def place(self) -> tuple[int, int, int, int]:
-        """Return the positions of the cell that the address names."""
-        record, ratio, force, period = (
-            self.position(name) for name in ("record", "stiffness_ratio", "pretension", "period")
-        )
-        return record, ratio, force, period
+    def place(self) -> tuple[Rerun, int, int, int, int]:
+        """Return who runs the history of the cell that the address names, and its positions."""
+        rerun, record = self.rerun.of(self.position("record"))
+        ratio, force, period = (self.position(name) for name in ("stiffness_ratio", "pretension", "period"))
+        return rerun, record, ratio, force, period
 
 
 class _History(_Computed):
     def computed(self) -> bytes:
-        return self.rerun.packed(*self.place())
+        rerun, *place = self.place()
+        return rerun.packed(*place)
 
 
 class _Point(_Computed):
     def computed(self) -> bytes:
         given = {field.name: self.get_query_argument(field.name, "") for field in FIELDS}
-        return packed_point(self.rerun, self.position("record"), point_of(given))
+        rerun, record = self.rerun.of(self.position("record"))
+        return packed_point(rerun, record, point_of(given))
 
 
 class _Best(_Computed):
     def computed(self) -> bytes:
         period = self.position("period") if self.get_query_argument("period", "") else None
+        rerun, record = self.rerun.of(self.position("record"))
         return packed_best(
-            self.rerun,
-            self.position("record"),
+            rerun,
+            record,
             self.position("stiffness_ratio"),
             self.get_query_argument("index", ""),
             period,
@@ -276,7 +289,8 @@ class _HistoryFile(_Computed):
 
     def computed(self) -> bytes:
         """Return the history as the bytes of the file that `fdspec.save` writes."""
-        history, _ = self.rerun.history(*self.place())
+        rerun, *place = self.place()
+        history, _ = rerun.history(*place)
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "history.nc"
             store.save(history, path)

@@ -10,6 +10,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from fdspec.errors import InvalidInput
 from fdspec.figures.caption import add_caption
+from fdspec.figures.labels import axis_label
 from fdspec.figures.page import Figure
 from fdspec.units import G
 
@@ -129,11 +130,11 @@ def plot_fragility(fit: xr.Dataset, *, confidence: float = 0.9, title: str = "",
     _plain_ticks(axis)
     axis.set_ylim(0.0, 1.0)
     unit = str(fit["median"].attrs.get("units", "1"))
-    axis.set_xlabel(str(fit.attrs.get("measure", dim)) + ("" if unit == "1" else f", {unit}"))
+    axis.set_xlabel(axis_label(str(fit.attrs.get("measure", dim)), unit))
     axis.set_ylabel("probability of exceedance")
     axis.grid(visible=True, which="both", color="0.92", linewidth=0.5)
     axis.legend(frameon=False, loc="upper left", fontsize="small")
-    what = str(fit.attrs.get("demand", "demand")).replace("_", " ")
+    what = axis_label(str(fit.attrs.get("demand", "demand")))
     limit, units = fit.attrs.get("limit", 0.0), str(fit.attrs.get("limit_units", ""))
     beyond = f"{what} beyond {limit:g} {units if units != '1' else ''}".rstrip()
     axis.set_title(title or beyond, fontsize="medium")
@@ -168,14 +169,16 @@ def plot_ida(curves: xr.Dataset, *, limit: float | None = None, title: str = "",
     if limit is not None:
         axis.axvline(limit, color="0.3", linewidth=0.8, linestyle=":", label="limit")
     unit = str(curves["fractile_demand"].attrs.get("units", "1"))
-    name = str(curves.attrs.get("demand_variable", "demand")).replace("_", " ")
-    axis.set_xlabel(name + ("" if unit == "1" else f", {unit}"))
+    name = str(curves.attrs.get("demand_variable", "demand"))
+    axis.set_xlabel(axis_label(name, unit))
     axis.set_ylabel("intensity")
     axis.set_xlim(left=0.0)
     axis.set_ylim(0.0, float(intensity[-1]))
     axis.grid(visible=True, color="0.92", linewidth=0.5)
     axis.legend(frameon=False, loc="lower right")
-    axis.set_title(title or f"{name} over intensity, {curves.sizes['record']} records", fontsize="medium")
+    axis.set_title(
+        title or f"{axis_label(name)} over intensity, {curves.sizes['record']} records", fontsize="medium"
+    )
     add_caption(figure, caption)
     return figure
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from fdspec.errors import InvalidInput
 from fdspec.measures.cells import require
+from fdspec.printable import in_words
 from fdspec.variables import NOT_COMPUTED
 
 if TYPE_CHECKING:
@@ -22,7 +23,10 @@ class Cell(NamedTuple):
     coordinates: dict[str, Any]
 
     def __str__(self) -> str:
-        return f"{self.status}: " + ", ".join(f"{dim} {value}" for dim, value in self.coordinates.items())
+        return f"{in_words(self.status)}: " + ", ".join(
+            f"{in_words(dim)} {value:.6g}" if isinstance(value, float) else f"{in_words(dim)} {value}"
+            for dim, value in self.coordinates.items()
+        )
 
 
 def status_counts(cube: xr.Dataset) -> dict[str, int]:

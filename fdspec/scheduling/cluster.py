@@ -228,7 +228,7 @@ def _outcome(company: _Company, future: Future[Any]) -> Any:
     from distributed import KilledWorker
 
     while future.status != "cancelled":
-        if future.status == "error":
+        if _has_failed(future):
             error = future.exception()
             if isinstance(error, KilledWorker):
                 return error
@@ -238,12 +238,16 @@ def _outcome(company: _Company, future: Future[Any]) -> Any:
         except TimeoutError:
             company.look_after_silence()
         except Exception as lost:
-            if future.status == "error":
+            if _has_failed(future):
                 continue
             if isinstance(lost, (OSError, CancelledError)):
                 break
             raise
     raise _SchedulerLostError
+
+
+def _has_failed(future: Future[Any]) -> bool:
+    return future.status == "error"
 
 
 class _Company:

@@ -15,6 +15,7 @@ from playwright.sync_api import Browser, Page, sync_playwright
 import fdspec
 from fdspec import store
 from fdspec.cli import main
+from fdspec.runs.sweep import ON_REQUEST, OUTPUTS
 from tests.explored import own_motion, small_cube
 
 FLAGS = [
@@ -41,8 +42,9 @@ def browser() -> Iterator[Browser]:
 
 @pytest.fixture(scope="session")
 def cube() -> xr.Dataset:
-    """Give a cube of two records of the catalogue and one whose file is nowhere."""
-    return small_cube(fdspec.load_record("FSR1"), fdspec.load_record("FMR1"), own_motion("mine"))
+    """Give a cube of every result: two records of the catalogue and one whose file is nowhere."""
+    motions = fdspec.load_record("FSR1"), fdspec.load_record("FMR1"), own_motion("mine")
+    return small_cube(*motions, outputs=[*OUTPUTS, *ON_REQUEST])
 
 
 @pytest.fixture(scope="session")

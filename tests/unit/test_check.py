@@ -87,8 +87,8 @@ def test_cells_that_failed_are_listed_by_their_coordinates(
     store.save(broken(cube, "statuses"), path)
     assert main(["check", path]) == 1
     out, err = capsys.readouterr()
-    cell = "transition_cap_reached: record b, stiffness_ratio 10.0, pretension 0.0, period 1.0"
-    assert f"FAILED  statuses   119 ok, 1 transition_cap_reached\n        {cell}\n" in out
+    cell = "transition cap reached: record b, stiffness ratio 10, pretension 0, period 1"
+    assert f"FAILED  statuses   119 ok, 1 transition cap reached\n        {cell}\n" in out
     assert err == f"fdspec: error: {path}: statuses failed\n"
     # What did not end well owes no numbers.
     cube = broken(cube, "statuses")

@@ -123,7 +123,10 @@ def test_words_from_files_cannot_leave_their_place() -> None:
 @pytest.mark.parametrize(
     ("made", "message"),
     [
-        (synthetic_building_cube, r"c\.nc is a cube of buildings, over record, building, .* single-storey"),
+        (
+            synthetic_building_cube,
+            r"c\.nc is a cube of buildings, over record, building, .*; BuildingContent",
+        ),
         (synthetic_history, r"c\.nc is a history; the page shows cubes"),
         (lambda: synthetic_cube().isel(record=0), "lacks the dimension record"),
         (lambda: synthetic_cube().isel(period=[0]), "over period needs at least 2 finite values, .* has 1"),

@@ -10,7 +10,7 @@ import pytest
 from fdspec import store
 from fdspec.cli import main
 from fdspec.explore.content import Content
-from fdspec.explore.page import NO_NETWORK, SCRIPTS, served_page, written_page
+from fdspec.explore.page import BUILDINGS, FRAMES, NO_NETWORK, SHARED, served_page, written_page
 from tests.cubes import synthetic_building_cube, synthetic_cube
 from tests.explored import record_numbers
 
@@ -71,7 +71,7 @@ def test_the_served_page_asks_its_own_server_alone() -> None:
 
 def test_every_script_is_part_of_the_page() -> None:
     assets = Path(sys.modules["fdspec.explore.page"].__file__ or "").parent / "assets"
-    assert {path.name for path in assets.glob("*.js")} == set(SCRIPTS)
+    assert {path.name for path in assets.glob("*.js")} == {*SHARED, *FRAMES, *BUILDINGS}
 
 
 def test_export_writes_a_page_of_all_records_or_one(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -88,7 +88,6 @@ def test_export_writes_a_page_of_all_records_or_one(folder: Path, capsys: pytest
 
 
 def test_what_cannot_be_shown_leaves_no_file(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert "buildings.nc is a cube of buildings" in refused(capsys, "export", "buildings.nc", "--html")
     assert "has no record 'FSR9'; it has FSR1" in refused(
         capsys, "export", "cube.nc", "--html", "--record", "FSR9"
     )
@@ -97,7 +96,11 @@ def test_what_cannot_be_shown_leaves_no_file(folder: Path, capsys: pytest.Captur
 
 
 def test_explore_refuses_before_it_listens(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert "buildings.nc is a cube of buildings" in refused(capsys, "explore", "buildings.nc")
+    several = refused(capsys, "explore", "cube.nc", "buildings.nc")
+    assert "a cube of buildings has a page of its own; name one cube" in several
+    (folder / "a.txt").write_text("0.0\n")
+    with_record = refused(capsys, "explore", "buildings.nc", "--record", "FSR1=a.txt")
+    assert "--record is for histories, which the page of buildings has none of" in with_record
     assert "there is no such file" in refused(capsys, "explore", "none.nc")
     assert "takes NAME=FILE" in refused(capsys, "explore", "cube.nc", "--record", "FSR1")
     assert "does not tell" in refused(capsys, "explore", "cube.nc", "--no-browser")

@@ -161,7 +161,7 @@ def test_fragility_from_a_file(tmp_path, monkeypatch):
         run = CliRunner().invoke(command, [*arguments, "-o", output])
         assert run.exit_code == 0, run.output
         assert (tmp_path / output).stat().st_size > 100
-    assert "annual_rate" in run.output
+    assert "rate a year" in run.output
     assert run.output.count("%") == 2
 
 

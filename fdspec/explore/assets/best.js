@@ -8,7 +8,10 @@ function searchKey(s, k, t) {
 
 // What was searched at a period: pretension, start, end and value; undefined where nothing was.
 function searchedAt(s, k, t) {
-  return searched.get(searchKey(s, k, t));
+  const told = searched.get(searchKey(s, k, t));
+  if (!told) return undefined;
+  const value = shownIn(told.value, about.indices[s.index].sent);
+  return { ...Object.fromEntries(["pretension", "start", "end"].map((name) => [name, shownIn(told[name], "kN")])), value };
 }
 
 function searchedEverywhere(s, k) {

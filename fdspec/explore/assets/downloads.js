@@ -40,7 +40,7 @@ function quoted(text) {
 function saveNumbers(picture) {
   const { heads, rows } = picture.numbers();
   const lines = [
-    `# ${picture.title()}`, ...[picture.origin(), `cube: ${about.name}`, `made: ${about.made}`].filter(Boolean).map((text) => `# ${text.replace(/\s+/g, " ")}`),
+    `# ${picture.title()}`, ...[picture.origin(), `cube: ${about.name}`, ...about.cubes.map(({ made }) => (made ? `made: ${made}` : ""))].filter(Boolean).map((text) => `# ${text.replace(/\s+/g, " ")}`),
     heads.map(quoted).join(","),
     // JavaScript writes the shortest digits that read back to the same number.
     ...rows.map((row) => row.map((v) => (v === null || Number.isNaN(v) ? "" : v)).join(",")),
@@ -49,43 +49,10 @@ function saveNumbers(picture) {
 }
 
 function named(index) {
-  return index.unit ? `${index.name}_${index.unit.replace("%", "percent").replace("/", "_per_")}` : index.name;
+  return index.unit ? `${index.name}_${spelt(index.unit)}` : index.name;
 }
 
-function mapNumbers(s, index, numbers) {
-  const rows = [];
-  for (let f = 0; f < SIZES.force; f++) {
-    for (let t = 0; t < SIZES.period; t++) {
-      rows.push([AXES.stiffness_ratio[s.ratio], AXES.pretension[f], AXES.slip_force[f], AXES.period[t], cell(numbers[index.name], s.ratio, f, t)]);
-    }
-  }
-  return { heads: ["stiffness_ratio", "pretension_kN", "slip_force_kN", "period_s", named(index)], rows };
-}
-
-function sliceNumbers(s, index, shown) {
-  const heads = ["pretension_kN", ...shown.map(({ k }) => `${about.records[k].name}_${named(index)}`)];
-  const rows = AXES.pretension.map((force, f) => [force, ...shown.map(({ numbers }) => cell(numbers[index.name], s.ratio, f, s.period))]);
-  return { heads, rows };
-}
-
-function bestNumbers(s, index, shown) {
-  const lines = shown.map(({ k, numbers }) => ({ name: about.records[k].name, k, between: searchedEverywhere(s, k), ...bestLine(s, index, numbers, k) }));
-  const heads = ["period_s"], rows = AXES.period.map((period) => [period]);
-  for (const { name, k, between, x, y, z } of lines) {
-    heads.push(`${name}_best_pretension_kN`, `${name}_${named(index)}`);
-    if (between) heads.push(`${name}_band_start_kN`, `${name}_band_end_kN`);
-    AXES.period.forEach((period, t) => {
-      const at = x.indexOf(period), told = searchedAt(s, k, t);
-      rows[t].push(at < 0 ? null : y[at], at < 0 ? null : z[at]);
-      if (between) rows[t].push(told.start, Number.isFinite(told.end) ? told.end : "inf");
-    });
-  }
-  return { heads, rows };
-}
-
-function historyNumbers(history) {
-  const units = { time: "s", displacement: "mm", brace_displacement: "mm", friction_force: "kN", acceleration: "g", ground_acceleration: "g" };
-  const names = Object.keys(units);
-  const rows = Array.from(history.arrays.time, (_, k) => names.map((name) => history.arrays[name][k]));
-  return { heads: names.map((name) => `${name}_${units[name]}`), rows };
+// A unit as a program takes it: m_per_s2, percent_g.
+function spelt(unit) {
+  return unit.replace("%", "percent").replace("/", "_per_").replace("²", "2").replace(/\s/, "_");
 }

@@ -1,69 +1,62 @@
-// Numbers: unpacked from bytes, sliced, and written for people.
+// Numbers of a cube of single-storey frames: in the units of the page, sliced, and on a scale of colours.
 
-const about = JSON.parse(document.getElementById("about").textContent);
-const AXES = about.axes;
+const AXES = { ...about.axes };
 const SIZES = { ratio: AXES.stiffness_ratio.length, force: AXES.pretension.length, period: AXES.period.length };
 
-// The counterpart of fdspec/explore/packing.py.
-function unpack(buffer) {
-  const length = new DataView(buffer).getUint32(0, true);
-  const head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
-  const values = new Float64Array(buffer, 4 + length);
-  const arrays = {};
-  for (const [name, [first, count]] of Object.entries(head.arrays)) {
-    arrays[name] = values.subarray(first, first + count);
-  }
-  return { ...head, arrays };
-}
-
-async function gunzip(bytes) {
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Response(stream).arrayBuffer();
-}
-
-// What the server answers, or the sentence with which it refuses.
-async function ask(address, signal) {
-  let answer;
-  try {
-    answer = await fetch(address, { signal });
-  } catch (error) {
-    if (error.name === "AbortError") throw error;
-    throw new Error("The server does not answer: fdspec explore has ended. Start it again and reload this page.");
-  }
-  if (answer.ok) return answer.arrayBuffer();
-  const told = await answer.json().catch(() => ({}));
-  throw new Error(told.error || `The server answers with error ${answer.status}.`);
-}
-
-async function recordBytes(k) {
-  const here = document.getElementById(`record-${k}`);
-  return here ? Uint8Array.from(atob(here.textContent), (letter) => letter.charCodeAt(0)) : ask(`record/${k}`);
-}
-
-const records = new Map();
+// A record's numbers in the units of the page, kept until those change.
+const inUnits = new Map();
 function recordNumbers(k) {
-  if (!records.has(k)) {
-    const coming = recordBytes(k).then(gunzip).then((buffer) => unpack(buffer).arrays);
-    coming.catch(() => records.delete(k));
-    records.set(k, coming);
+  if (!inUnits.has(k)) {
+    const coming = sentNumbers(k).then((arrays) => {
+      const shown = { ...arrays };
+      for (const index of about.indices) shown[index.name] = allShownIn(arrays[index.name], index.sent);
+      for (const name of ["bare", "braced"]) if (name in arrays) shown[name] = allShownIn(arrays[name], "g");
+      return shown;
+    });
+    coming.catch(() => inUnits.delete(k));
+    inUnits.set(k, coming);
   }
-  return records.get(k);
+  return inUnits.get(k);
+}
+
+for (const index of about.indices) index.sent = index.unit;
+
+// Everything that stands in a unit, in those chosen now.
+let FORCE, LENGTH, ACCELERATION;
+function applyUnits() {
+  inUnits.clear();
+  [FORCE, LENGTH, ACCELERATION] = ["kN", "mm", "g"].map(unitFor);
+  for (const name of ["pretension", "slip_force"]) AXES[name] = about.axes[name].map((v) => shortest(shownIn(v, "kN")));
+  for (const index of about.indices) index.unit = unitFor(index.sent);
+  FIELDS.find((field) => field.name === "pretension").unit = FORCE;
 }
 
 // The numbers that the page has a field for; those of the frame hold for the whole cube.
 const FIELDS = [
   { name: "period", title: "period", unit: "s" }, { name: "stiffness_ratio", title: "stiffness ratio", unit: "" }, { name: "pretension", title: "pretension", unit: "kN" },
   ...["floor_mass", "brace_mass", "damping_ratio", "friction_coefficient"].flatMap((name) => {
-    const told = about.frame.find((one) => one.name === name);
-    return told ? [{ name, title: told.title, unit: told.unit, value: told.value, own: true }] : [];
+    const told = about.cubes[0].frame.find((one) => one.name === name);
+    return told ? [{ name, title: told.title, unit: told.unit, own: true }] : [];
   }),
 ];
+applyUnits();
 
 // Values of the point: the cube's at the sliders, or those that were typed.
 function pointOf(s) {
   const here = { period: AXES.period[s.period], stiffness_ratio: AXES.stiffness_ratio[s.ratio], pretension: s.force === null ? NaN : AXES.pretension[s.force] };
-  for (const field of FIELDS) if (field.own) here[field.name] = field.value;
-  return { ...here, ...(s.free || {}) };
+  return { ...here, ...frameOf(s.record), ...(s.free || {}) };
+}
+
+// The frame's constants in the cube that a record is of.
+function frameOf(k) {
+  const { frame } = about.cubes[about.records[k].cube];
+  return Object.fromEntries(FIELDS.filter((field) => field.own).map(({ name }) => [name, frame.find((one) => one.name === name)?.value]));
+}
+
+// A point between the cube's: its place, and of the frame what is not the record's cube's own.
+function freeAt(point, k) {
+  const own = frameOf(k);
+  return Object.fromEntries(Object.entries(point).filter(([name, value]) => !(name in own) || Math.abs(value - own[name]) > 1e-9 * Math.abs(own[name])));
 }
 
 function cell(values, ratio, force, period) {
@@ -81,7 +74,8 @@ function slice(values, ratio) {
 }
 
 // Bounds and step of the colours: round numbers, from 0 or below to the largest value, but not beyond [least, most].
-function scaleOf(arrays, [least, most]) {
+// Where there is a neutral value, as far below it as above, and a bound of colour at it.
+function scaleOf(arrays, [least, most], neutral = null) {
   let low = 0, high = -Infinity;
   for (const values of arrays) {
     for (const v of values) {
@@ -92,20 +86,12 @@ function scaleOf(arrays, [least, most]) {
   low = Math.max(low, least ?? -Infinity);
   high = Math.min(high, most ?? Infinity);
   if (!(high > low)) high = low + 1;
-  const rough = (high - low) / 18, power = 10 ** Math.floor(Math.log10(rough));
+  const half = neutral === null ? 0 : Math.max(high - neutral, neutral - low) || 1;
+  const rough = half ? half / 9 : (high - low) / 18, power = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 2.5, 5, 10].map((m) => m * power).find((m) => m >= rough * 0.999);
+  if (half) {
+    const steps = Math.ceil(half / step - 1e-9);
+    return { low: neutral - steps * step, high: neutral + steps * step, step, neutral };
+  }
   return { low: Math.floor(low / step) * step, high: Math.ceil(high / step - 1e-9) * step, step };
-}
-
-function nearest(axis, value) {
-  let best = 0;
-  axis.forEach((x, k) => { if (Math.abs(x - value) < Math.abs(axis[best] - value)) best = k; });
-  return best;
-}
-
-function written(value, unit) {
-  if (typeof value === "string") return value;
-  if (value === null || value === undefined || !Number.isFinite(value)) return "unknown";
-  const digits = Number.isInteger(value) && Math.abs(value) < 1e6 ? String(value) : String(Number(value.toPrecision(4)));
-  return unit ? `${digits}\u00a0${unit}` : digits;
 }

@@ -2,56 +2,12 @@
 
 // Perceptually even, and safe for colour-blind eyes and in grey print.
 const EVEN = "Viridis";
-// Of Okabe and Ito's palette; the second record differs by its dashes and marks too.
-const FAMILY = 'system-ui, "Segoe UI", "DejaVu Sans", sans-serif';
-// Colours of the light and of the dark page; lines reach a contrast of 3 on their ground, letters 4.5.
-const LIGHT = {
-  lines: ["#0072B2", "#D55E00"], ground: "#5c5c5c", limit: "#4a5866", ink: "#1b2733", paper: "#ffffff", grid: "#e3e8ec",
-  space: "#f4f6f8", spaceGrid: "#c9d1d9", grey: "#aab3bd", median: "#1b2733", high: "#007a5a", worst: "#B03A00",
-};
-const DARK = {
-  lines: ["#56B4E9", "#F0A04B"], ground: "#aab3bd", limit: "#aab3bd", ink: "#e8edf2", paper: "#1a222b", grid: "#34404c",
-  space: "#222c36", spaceGrid: "#4a5866", grey: "#6f7c89", median: "#e8edf2", high: "#2fc79a", worst: "#F0A04B",
-};
-let LOOK = LIGHT, FONT, RECORD_LINES, FLOOR, BRACE, GROUND, LIMIT;
-function setLook(look) {
-  LOOK = look;
-  FONT = { family: FAMILY, size: 12, color: look.ink };
-  RECORD_LINES = [
-    { color: look.lines[0], dash: "solid", symbol: "circle" },
-    { color: look.lines[1], dash: "dash", symbol: "square" },
-  ];
-  [FLOOR, BRACE] = look.lines;
-  GROUND = look.ground;
-  LIMIT = look.limit;
-}
-setLook(LIGHT);
-// No buttons over the pictures, which keys do not reach: the page has its own. No zoom by dragging where a
-// finger drags to scroll.
-const TOUCH = matchMedia("(pointer: coarse)").matches;
-const CONFIG = { plotGlPixelRatio: Math.min(window.devicePixelRatio, 2), displayModeBar: false, responsive: true, doubleClick: "reset", scrollZoom: false };
-
-function layout(more) {
-  return {
-    font: FONT, paper_bgcolor: LOOK.paper, plot_bgcolor: LOOK.paper, showlegend: false, uirevision: "kept",
-    dragmode: TOUCH ? false : "zoom", margin: { l: 58, r: 12, t: 8, b: 42 },
-    // Of the page's own colours: those of the marks would carry no letters that can be read.
-    hoverlabel: { font: FONT, bgcolor: LOOK.paper, bordercolor: LOOK.limit }, ...more,
-  };
-}
-
-function axis(title, more) {
-  return { title: { text: title, standoff: 6 }, gridcolor: LOOK.grid, zeroline: false, ticks: "outside", ticklen: 3, ...more };
-}
-
-// A long title in lines that fit the height of a picture.
-function folded(text, letters = 30) {
-  const lines = [""];
-  for (const word of text.split(" ")) {
-    if (lines.at(-1) && lines.at(-1).length + word.length >= letters) lines.push("");
-    lines[lines.length - 1] += (lines.at(-1) ? " " : "") + word;
-  }
-  return lines.join("<br>");
+// Two colours that part at a neutral value: blue where a damper helps, red where it harms (ColorBrewer's RdBu).
+const HARM_TO_HELP = ["#67001f", "#b2182b", "#d6604d", "#f4a582", "#fddbc7", "#f7f7f7", "#d1e5f0", "#92c5de", "#4393c3", "#2166ac", "#053061"];
+function coloursOf(index) {
+  if (index.neutral === null) return EVEN;
+  const colours = index.best === "least" ? [...HARM_TO_HELP].reverse() : HARM_TO_HELP;
+  return colours.map((colour, k) => [k / (colours.length - 1), colour]);
 }
 
 function ends(values) {
@@ -68,11 +24,11 @@ function contourPlot(s, index, numbers, scale, best) {
   const data = [
     {
       type: "contour", x: AXES.period, y: AXES.pretension, z: slice(numbers[index.name], s.ratio),
-      colorscale: EVEN, zmin: scale.low, zmax: scale.high, autocontour: false,
+      colorscale: coloursOf(index), zmin: scale.low, zmax: scale.high, autocontour: false,
       contours: { start: scale.low, end: scale.high, size: scale.step },
-      line: { color: "rgba(255,255,255,0.6)", width: 0.5 }, connectgaps: false,
-      colorbar: { title: { text: index.unit, side: "top" }, thickness: 12, len: 1, outlinewidth: 0, x: 1.01, xpad: 2, tick0: scale.low, dtick: 4 * scale.step },
-      hovertemplate: `%{x} s, %{y} kN<br>%{z:.4g} ${index.unit}<extra></extra>`,
+      line: { color: index.neutral === null ? "rgba(255,255,255,0.6)" : "rgba(0,0,0,0.18)", width: 0.5 }, connectgaps: false,
+      colorbar: { title: { text: index.unit, side: "top" }, thickness: 12, len: 1, outlinewidth: 0, x: 1.01, xpad: 2, ...scaleTicks(scale) },
+      hovertemplate: `%{x} s, %{y} ${FORCE}<br>%{z:.4g} ${index.unit}<extra></extra>`,
     },
     {
       type: "scatter", mode: "lines+markers", x: best.x, y: best.y, hoverinfo: "skip", cliponaxis: false,
@@ -87,7 +43,26 @@ function contourPlot(s, index, numbers, scale, best) {
       marker: { symbol: "x-open", color: "#fff", size: 11, line: { width: 2 } },
     },
   ];
-  return { data, layout: layout({ xaxis: axis("period without brace, s", { range: ends(AXES.period) }), yaxis: axis("pretension, kN", { range: ends(AXES.pretension) }) }) };
+  // White is the middle of two colours: there the line of the best has a dark edge.
+  if (index.neutral !== null) data.splice(1, 0, neutralLine(index, data[0]), { ...data[1], mode: "lines", line: { color: "#1b2733", width: 3.5 } });
+  return { data, layout: layout({ xaxis: axis("period without brace, s", { range: ends(AXES.period) }), yaxis: axis(`pretension, ${FORCE}`, { range: ends(AXES.pretension) }) }) };
+}
+
+// Where a damper begins to harm.
+function neutralLine(index, { x, y, z }) {
+  return {
+    type: "contour", x, y, z, autocontour: false, contours: { start: index.neutral, end: index.neutral, size: 1, coloring: "none" },
+    line: { color: "#000", width: 2 }, showscale: false, hoverinfo: "skip", connectgaps: false, name: "neutral",
+  };
+}
+
+// Numbers beside the colours; the neutral value among them stands out.
+function scaleTicks({ low, high, step, neutral }) {
+  if (neutral === undefined) return { tick0: low, dtick: 4 * step };
+  const steps = Math.round((high - neutral) / step), every = Math.max(1, Math.ceil(steps / 3));
+  const values = [];
+  for (let k = -Math.floor(steps / every) * every; k <= steps; k += every) values.push(neutral + k * step);
+  return { tickvals: values, ticktext: values.map((v) => (v === neutral ? `<b>${written(v)}</b>` : written(v))), ticks: "outside", ticklen: 4 };
 }
 
 function eye(turn) {
@@ -101,8 +76,8 @@ function surfacePlot(s, index, numbers, scale, best) {
   const data = [
     {
       type: "surface", x: AXES.period, y: AXES.pretension, z: slice(numbers[index.name], s.ratio),
-      colorscale: EVEN, cmin: scale.low, cmax: scale.high, showscale: false, lighting: { ambient: 0.85, diffuse: 0.4, specular: 0.05 },
-      hovertemplate: `%{x} s, %{y} kN<br>%{z:.4g} ${index.unit}<extra></extra>`,
+      colorscale: coloursOf(index), cmin: scale.low, cmax: scale.high, showscale: false, lighting: { ambient: 0.85, diffuse: 0.4, specular: 0.05 },
+      hovertemplate: `%{x} s, %{y} ${FORCE}<br>%{z:.4g} ${index.unit}<extra></extra>`,
     },
     {
       type: "scatter3d", mode: "lines+markers", x: best.x, y: best.y, z: best.z.map(lift), hoverinfo: "skip",
@@ -121,7 +96,7 @@ function surfacePlot(s, index, numbers, scale, best) {
       scene: {
         uirevision: "kept", dragmode: TOUCH ? false : "turntable", aspectmode: "manual", aspectratio: { x: 1.25, y: 1, z: 0.7 },
         camera: { eye: eye(s.turn), center: { x: 0, y: 0, z: -0.2 } },
-        xaxis: side("period, s"), yaxis: side("pretension, kN"), zaxis: side(index.unit || "", { range: [scale.low, scale.high] }),
+        xaxis: side("period, s"), yaxis: side(`pretension, ${FORCE}`), zaxis: side(index.unit || "", { range: [scale.low, scale.high] }),
       },
     }),
   };
@@ -140,14 +115,14 @@ function slicePlot(s, index, shown) {
       type: "scatter", mode: "lines+markers", name: plain(about.records[k].name), x: AXES.pretension, y,
       line: { color: look.color, dash: look.dash, width: 2 },
       marker: { symbol: close.map((c) => (c ? `${look.symbol}-open` : look.symbol)), color: look.color, size: close.map((c) => (c ? 11 : 6)), line: { width: 2 } },
-      hovertemplate: `%{x} kN: %{y:.4g} ${index.unit}<extra>%{fullData.name}</extra>`,
+      hovertemplate: `%{x} ${FORCE}: %{y:.4g} ${index.unit}<extra>%{fullData.name}</extra>`,
     });
     const told = searchedAt(s, k, s.period);
     if (told && Number.isFinite(told.value)) {
       data.push({
         type: "scatter", mode: "markers", name: `${plain(about.records[k].name)}, searched`, x: [told.pretension], y: [told.value], showlegend: false,
         marker: { symbol: "star", color: look.color, size: 15, line: { color: "#fff", width: 1 } },
-        hovertemplate: `best: %{x:.4g} kN: %{y:.4g} ${index.unit}<extra>%{fullData.name}</extra>`,
+        hovertemplate: `best: %{x:.4g} ${FORCE}: %{y:.4g} ${index.unit}<extra>%{fullData.name}</extra>`,
       });
       bands.push({ type: "rect", x0: told.start, x1: Math.min(told.end, 1.05 * AXES.pretension[SIZES.force - 1]), y0: 0, y1: 1, yref: "paper", fillcolor: look.color, opacity: 0.13, line: { width: 0 }, layer: "below" });
     }
@@ -163,10 +138,15 @@ function slicePlot(s, index, shown) {
     data,
     layout: layout({
       showlegend: true, legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0 }, margin: { l: 58, r: 12, t: 30, b: 42 },
-      xaxis: axis("pretension, kN"), yaxis: axis(folded(`${index.title}${unitOf(index)}`), { rangemode: "tozero", automargin: true }),
-      shapes: [...bands, { type: "line", x0: pointOf(s).pretension, x1: pointOf(s).pretension, y0: 0, y1: 1, yref: "paper", line: { color: LIMIT, width: 1, dash: "dot" } }],
+      xaxis: axis(`pretension, ${FORCE}`), yaxis: axis(folded(`${index.title}${unitOf(index)}`), { rangemode: "tozero", automargin: true }),
+      shapes: [...bands, ...neutralLevel(index), { type: "line", x0: pointOf(s).pretension, x1: pointOf(s).pretension, y0: 0, y1: 1, yref: "paper", line: { color: LIMIT, width: 1, dash: "dot" } }],
     }),
   };
+}
+
+// The line across a chart where the damper neither helps nor harms.
+function neutralLevel(index) {
+  return index.neutral === null ? [] : [{ type: "line", xref: "x domain", x0: 0, x1: 1, y0: index.neutral, y1: index.neutral, layer: "below", line: { color: LIMIT, width: 1.2 } }];
 }
 
 // The best pretension at every period, and what it gives.
@@ -176,7 +156,7 @@ function bestPlot(s, index, shown) {
     const look = RECORD_LINES[n], best = bestLine(s, index, numbers, k);
     const name = plain(about.records[k].name);
     const drawn = { type: "scatter", mode: "lines+markers", x: best.x, line: { color: look.color, dash: look.dash, width: 1.5 }, marker: { symbol: look.symbol, color: look.color, size: 4 } };
-    data.push({ ...drawn, name, y: best.y, hovertemplate: `%{x} s: %{y} kN<extra>${name}</extra>` });
+    data.push({ ...drawn, name, y: best.y, hovertemplate: `%{x} s: %{y} ${FORCE}<extra>${name}</extra>` });
     data.push({ ...drawn, name, y: best.z, yaxis: "y2", showlegend: false, hovertemplate: `%{x} s: %{y:.4g} ${index.unit}<extra>${name}</extra>` });
   });
   return {
@@ -184,7 +164,7 @@ function bestPlot(s, index, shown) {
     layout: layout({
       showlegend: true, legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0 }, margin: { l: 58, r: 12, t: 30, b: 42 },
       xaxis: axis("period without brace, s", { anchor: "y2" }),
-      yaxis: axis("best pretension, kN", { domain: [0.54, 1], rangemode: "tozero" }),
+      yaxis: axis(`best pretension, ${FORCE}`, { domain: [0.54, 1], rangemode: "tozero" }),
       yaxis2: axis(`its index${unitOf(index)}`, { domain: [0, 0.46], rangemode: "tozero" }),
       shapes: [{ type: "line", x0: pointOf(s).period, x1: pointOf(s).period, y0: 0, y1: 1, yref: "paper", line: { color: LIMIT, width: 1, dash: "dot" } }],
     }),
@@ -198,13 +178,13 @@ function historyPlot(history, narrow, span) {
     hovertemplate: `%{x:.4g} s, %{y:.4g} ${unit}<extra>${name}</extra>`, ...more,
   });
   const data = [
-    line("floor", "mm", time, displacement, FLOOR),
-    line("brace", "mm", time, brace_displacement, BRACE, { line: { color: BRACE, width: 1, dash: "dot" } }),
-    line("friction", "kN", time, friction_force, FLOOR, { yaxis: "y2", showlegend: false }),
-    line("floor, absolute", "g", time, acceleration, FLOOR, { yaxis: "y3", showlegend: false }),
-    line("ground", "g", time, ground_acceleration, GROUND, { yaxis: "y3", line: { color: GROUND, width: 0.8 } }),
-    line("loop", "kN", loop_slip, loop_force, FLOOR, { xaxis: "x2", yaxis: "y4", showlegend: false, hovertemplate: "%{x:.4g} mm, %{y:.4g} kN<extra>loop</extra>" }),
-    line("bare frame", "mm", time.subarray(0, bare_displacement.length), bare_displacement, LOOK.grey, { line: { color: LOOK.grey, width: 1 }, visible: "legendonly" }),
+    line("floor", LENGTH, time, displacement, FLOOR),
+    line("brace", LENGTH, time, brace_displacement, BRACE, { line: { color: BRACE, width: 1, dash: "dot" } }),
+    line("friction", FORCE, time, friction_force, FLOOR, { yaxis: "y2", showlegend: false }),
+    line("floor, absolute", ACCELERATION, time, acceleration, FLOOR, { yaxis: "y3", showlegend: false }),
+    line("ground", ACCELERATION, time, ground_acceleration, GROUND, { yaxis: "y3", line: { color: GROUND, width: 0.8 } }),
+    line("loop", FORCE, loop_slip, loop_force, FLOOR, { xaxis: "x2", yaxis: "y4", showlegend: false, hovertemplate: `%{x:.4g} ${LENGTH}, %{y:.4g} ${FORCE}<extra>loop</extra>` }),
+    line("bare frame", LENGTH, time.subarray(0, bare_displacement.length), bare_displacement, LOOK.grey, { line: { color: LOOK.grey, width: 1 }, visible: "legendonly" }),
   ];
   const rows = narrow ? [[0.83, 1], [0.615, 0.785], [0.4, 0.57]] : [[0.7, 1], [0.36, 0.64], [0, 0.3]];
   const force = history.slip_force;
@@ -215,9 +195,9 @@ function historyPlot(history, narrow, span) {
     layout: layout({
       showlegend: true, legend: { orientation: "h", y: 1.01, yanchor: "bottom", x: 0 }, margin: { l: 58, r: 12, t: 26, b: 40 },
       xaxis: axis("time, s", { domain: narrow ? [0, 1] : [0, 0.62], anchor: "y3", ...(span ? { range: span } : {}) }),
-      yaxis: axis("displacement,<br>mm", { domain: rows[0] }), yaxis2: axis("friction,<br>kN", { domain: rows[1] }), yaxis3: axis("acceleration,<br>g", { domain: rows[2] }),
-      xaxis2: axis("slip, floor less brace, mm", { domain: narrow ? [0, 1] : [0.71, 1], anchor: "y4" }),
-      yaxis4: axis("friction, kN", { domain: narrow ? [0, 0.3] : [0, 1], anchor: "x2" }),
+      yaxis: axis(`displacement,<br>${LENGTH}`, { domain: rows[0] }), yaxis2: axis(`friction,<br>${FORCE}`, { domain: rows[1] }), yaxis3: axis(`acceleration,<br>${ACCELERATION}`, { domain: rows[2] }),
+      xaxis2: axis(`slip, floor less brace, ${LENGTH}`, { domain: narrow ? [0, 1] : [0.71, 1], anchor: "y4" }),
+      yaxis4: axis(`friction, ${FORCE}`, { domain: narrow ? [0, 0.3] : [0, 1], anchor: "x2" }),
       shapes: limits, uirevision: span ? `kept ${span}` : "kept",
     }),
   };
@@ -253,18 +233,12 @@ function energyPlot(history) {
   };
 }
 
-// What many say together, as fdspec.measures.ensemble does: median, 84th percentile (linear between members), worst.
-function quantile(values, share) {
-  const sorted = [...values].sort((a, b) => a - b), at = share * (sorted.length - 1), low = Math.floor(at);
-  return low + 1 < sorted.length ? sorted[low] + (at - low) * (sorted[low + 1] - sorted[low]) : sorted[low];
-}
-
 // The index over pretension under every record, grey, and what they say together.
 function allPlot(s, index, everything) {
   const over = everything.map(({ numbers }) => AXES.pretension.map((_, f) => cell(numbers[index.name], s.ratio, f, s.period)));
   const column = (f) => over.map((line) => line[f]);
   const said = (of) => AXES.pretension.map((_, f) => (column(f).every(Number.isFinite) ? of(column(f)) : null));
-  const hover = (name) => `%{x} kN: %{y:.4g} ${index.unit}<extra>${name}</extra>`;
+  const hover = (name) => `%{x} ${FORCE}: %{y:.4g} ${index.unit}<extra>${name}</extra>`;
   const data = over.map((y, n) => ({
     type: "scatter", mode: "lines", name: plain(about.records[everything[n].k].name), x: AXES.pretension, y, line: { color: LOOK.grey, width: 1 }, showlegend: false,
     hovertemplate: hover(plain(about.records[everything[n].k].name)),
@@ -279,8 +253,8 @@ function allPlot(s, index, everything) {
     data,
     layout: layout({
       showlegend: true, legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0 }, margin: { l: 58, r: 12, t: 30, b: 42 },
-      xaxis: axis("pretension, kN"), yaxis: axis(folded(`${index.title}${unitOf(index)}`), { rangemode: "tozero", automargin: true }),
-      shapes: [{ type: "line", x0: pointOf(s).pretension, x1: pointOf(s).pretension, y0: 0, y1: 1, yref: "paper", line: { color: LIMIT, width: 1, dash: "dot" } }],
+      xaxis: axis(`pretension, ${FORCE}`), yaxis: axis(folded(`${index.title}${unitOf(index)}`), { rangemode: "tozero", automargin: true }),
+      shapes: [...neutralLevel(index), { type: "line", x0: pointOf(s).pretension, x1: pointOf(s).pretension, y0: 0, y1: 1, yref: "paper", line: { color: LIMIT, width: 1, dash: "dot" } }],
     }),
   };
 }

@@ -1,15 +1,11 @@
 // Words: what stands beside a picture, for those who do not see it and for those who do.
 
 function pointWords(s) {
-  const at = pointOf(s), own = FIELDS.filter((field) => field.own && s.free && s.free[field.name] !== field.value);
+  const at = pointOf(s), own = FIELDS.filter((field) => field.own && s.free && field.name in s.free);
   return [
-    `period ${written(at.period, "s")}`, `stiffness ratio ${written(at.stiffness_ratio)}`, `pretension ${written(at.pretension, "kN")}`,
+    `period ${written(at.period, "s")}`, `stiffness ratio ${written(at.stiffness_ratio)}`, `pretension ${written(at.pretension, FORCE)}`,
     ...own.map((field) => `${field.title} ${written(s.free[field.name], field.unit)}`),
   ].join(", ");
-}
-
-function unitOf(index) {
-  return index.unit ? `, ${index.unit}` : "";
 }
 
 function mapWords(s, k, index, numbers) {
@@ -24,9 +20,10 @@ function mapWords(s, k, index, numbers) {
     }
   }
   if (low.length === 1) return `No history of ${about.records[k].name} ended well here.`;
-  const at = ([v, f, t]) => `${written(v, index.unit)} at ${written(AXES.period[t], "s")} and ${written(AXES.pretension[f], "kN")}`;
+  const at = ([v, f, t]) => `${written(v, index.unit)} at ${written(AXES.period[t], "s")} and ${written(AXES.pretension[f], FORCE)}`;
   const parts = [`From ${at(low)} to ${at(high)}.`];
   if (!index.best) parts.push("This index has no best pretension.");
+  if (index.neutral !== null) parts.push(`Black line: ${written(index.neutral, index.unit)}, where the damper neither helps nor harms; blue helps, red harms.`);
   const [least, most] = index.colours;
   if (least !== null && low[0] < least) parts.push(`Colours end at ${written(least, index.unit)}.`);
   if (most !== null && high[0] > most) parts.push(`Colours end at ${written(most, index.unit)}.`);
@@ -38,24 +35,24 @@ function bestWords(s, k, index, numbers) {
   if (!index.best) return "This index has no best pretension.";
   const place = gridBest(s, index, numbers, s.period), told = searchedAt(s, k, s.period);
   if (place === null) return "";
-  const of = `At ${written(AXES.period[s.period], "s")} the best of the cube's pretensions is ${written(AXES.pretension[place], "kN")}: ` +
+  const of = `At ${written(AXES.period[s.period], "s")} the best of the cube's pretensions is ${written(AXES.pretension[place], FORCE)}: ` +
     `${written(cell(numbers[index.name], s.ratio, place, s.period), index.unit)}.`;
   if (!told || !Number.isFinite(told.value)) return of;
-  const end = Number.isFinite(told.end) ? `to ${written(told.end, "kN")}` : "without end";
-  return `${of} Between them the best is ${written(told.pretension, "kN")}: ${written(told.value, index.unit)}, ` +
-    `and the response is at most 5 % above the least from ${written(told.start, "kN")} ${end}.`;
+  const end = Number.isFinite(told.end) ? `to ${written(told.end, FORCE)}` : "without end";
+  return `${of} Between them the best is ${written(told.pretension, FORCE)}: ${written(told.value, index.unit)}, ` +
+    `and the response is at most 5 % above the least from ${written(told.start, FORCE)} ${end}.`;
 }
 
 function curveWords(s, k, index, numbers) {
   const here = cell(numbers[index.name], s.ratio, s.force, s.period);
-  return `${about.records[k].name}: ${written(here, index.unit)} at ${written(AXES.pretension[s.force], "kN")}. ${bestWords(s, k, index, numbers)}`;
+  return `${about.records[k].name}: ${written(here, index.unit)} at ${written(AXES.pretension[s.force], FORCE)}. ${bestWords(s, k, index, numbers)}`;
 }
 
 function allWords(s, index, everything) {
   const at = AXES.pretension[s.force ?? 0], here = everything.map(({ numbers }) => cell(numbers[index.name], s.ratio, s.force ?? 0, s.period));
   if (!here.every(Number.isFinite)) return "Where a record has no number there is no median.";
   const bad = index.best === "most" ? Math.min(...here) : Math.max(...here);
-  return `At ${written(at, "kN")} the median is ${written(quantile(here, 0.5), index.unit)}, the worst ${written(bad, index.unit)}, of ${everything[here.indexOf(bad)].name}.`;
+  return `At ${written(at, FORCE)} the median is ${written(quantile(here, 0.5), index.unit)}, the worst ${written(bad, index.unit)}, of ${everything[here.indexOf(bad)].name}.`;
 }
 
 function sliceMarks(index) {
@@ -74,48 +71,4 @@ function historyWords(history) {
   return off < 1e-9
     ? `${words} The cube's cell says the same.`
     : `${words} The cube's cell says ${written(acceleration.cube, acceleration.unit)}, ${written(100 * off, "%")} off.`;
-}
-
-function originWords(k) {
-  const r = about.records[k];
-  const parts = [r.source || r.event];
-  if (r.pga !== null) parts.push(`PGA ${written(r.pga, "g")}`);
-  if (r.scale_factor !== null && r.scale_factor !== 1) parts.push(`the recorded motion times ${written(r.scale_factor)}`);
-  if (r.duration !== null) parts.push(`${written(r.duration, "s")} long`);
-  return parts.filter(Boolean).join("; ");
-}
-
-// The drawing library reads some HTML in texts; names from files are to stand as they are.
-function plain(text) {
-  return text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");
-}
-
-function table(caption, heads, rows) {
-  const made = element("table");
-  made.append(element("caption", caption));
-  const line = element("tr");
-  heads.forEach((head) => { const th = element("th", head); th.scope = "col"; line.append(th); });
-  made.append(line);
-  for (const row of rows) {
-    const tr = element("tr");
-    row.forEach((text, k) => {
-      const td = element(k ? "td" : "th", text);
-      if (!k) td.scope = "row";
-      tr.append(td);
-    });
-    made.append(tr);
-  }
-  const scroll = element("div");
-  scroll.className = "scroll";
-  scroll.tabIndex = 0;
-  scroll.setAttribute("role", "group");
-  scroll.setAttribute("aria-label", caption);
-  scroll.append(made);
-  return scroll;
-}
-
-function element(tag, text) {
-  const made = document.createElement(tag);
-  if (text !== undefined) made.textContent = text;
-  return made;
 }

@@ -1,145 +1,68 @@
-// The page: controls, cards of pictures, and what follows from what.
+// The page of a cube of single-storey frames: its controls, its pictures, and what follows from what.
 
-const byId = (id) => document.getElementById(id);
 const control = Object.fromEntries(["record", "compare", "index", "ratio", "period", "force", "best", "line"].map((id) => [id, byId(id)]));
 
+// In an address: compared with no other, where two cubes would be.
+const NONE = "none";
 const USUAL = {
-  record: 0, compare: -1, index: 0, turn: -55, strong: false, free: null,
+  record: 0, compare: about.cubes.length > 1 ? counterpart(0) : -1, index: 0, turn: -55, strong: false, free: null,
   ratio: nearest(AXES.stiffness_ratio, 4), period: nearest(AXES.period, 0.5), force: null,
 };
 const state = fromAddress();
-const cards = new Map();
+
+// The same earthquake in the next cube; -1 where it has none.
+function counterpart(k) {
+  const { record, cube } = about.records[k];
+  return about.records.findIndex((r) => r.record === record && r.cube === (cube + 1) % about.cubes.length);
+}
 const histories = new Map();
 
 // ---- state in the address, by names and values, so that a view can be kept, sent, and gone back to
 
 function fromAddress() {
   const told = new URLSearchParams(location.hash.slice(1)), found = { ...USUAL };
+  unitsFrom(told);
+  applyUnits();
   const names = about.records.map((r) => r.name);
   const place = (list, name) => list.indexOf(told.get(name));
   if (place(names, "record") >= 0) found.record = place(names, "record");
   if (place(names, "compare") >= 0) found.compare = place(names, "compare");
+  else if (told.get("compare") === NONE) found.compare = -1;
+  else if (about.cubes.length > 1) found.compare = counterpart(found.record);
   if (place(about.indices.map((index) => index.name), "index") >= 0) found.index = place(about.indices.map((index) => index.name), "index");
   const free = {};
   for (const [key, name] of [["period", "period"], ["ratio", "stiffness_ratio"], ["force", "pretension"]]) {
-    const value = numberOf(told.get(name));
-    if (value === null) continue;
+    const sent = numberOf(told.get(name));
+    if (sent === null) continue;
+    const value = name === "pretension" ? shortest(shownIn(sent, "kN")) : sent;
     found[key] = nearest(AXES[name], value);
     if (Math.abs(AXES[name][found[key]] - value) > 1e-9 * Math.abs(value)) free[name] = value;
   }
   for (const field of FIELDS.filter((one) => one.own)) {
     const value = numberOf(told.get(field.name));
-    if (value !== null && value !== field.value) free[field.name] = value;
+    if (value !== null && value !== frameOf(found.record)[field.name]) free[field.name] = value;
   }
   if (found.compare === found.record) found.compare = -1;
-  if (about.served && Object.keys(free).length) found.free = { ...pointOf({ ...found, free: null, force: found.force ?? 0 }), ...free };
+  if (about.served && Object.keys(free).length) found.free = freeAt({ ...pointOf({ ...found, free: null, force: found.force ?? 0 }), ...free }, found.record);
   return found;
-}
-
-function numberOf(text) {
-  const value = text === null || text.trim() === "" ? NaN : Number(text);
-  return Number.isFinite(value) ? value : null;
 }
 
 function addressOf(s) {
   const at = pointOf(s), told = { record: about.records[s.record].name, index: about.indices[s.index].name };
   if (s.compare >= 0) told.compare = about.records[s.compare].name;
-  for (const name of ["stiffness_ratio", "period", "pretension"]) told[name] = at[name];
-  for (const field of FIELDS) if (field.own && s.free && s.free[field.name] !== field.value) told[field.name] = s.free[field.name];
+  else if (about.cubes.length > 1) told.compare = NONE;
+  for (const name of ["stiffness_ratio", "period", "pretension"]) told[name] = name === "pretension" ? sentFrom(at[name], "kN") : at[name];
+  for (const field of FIELDS) if (field.own && s.free && field.name in s.free) told[field.name] = s.free[field.name];
+  unitsInto(told);
   return "#" + new URLSearchParams(told);
 }
 
-// A view that was chosen gets a place of its own behind the back button; a slider that is dragged does not.
-let chosen = false;
-function toAddress() {
-  const address = addressOf(state);
-  if (address === location.hash) return;
-  if (chosen && location.hash) history.pushState(null, "", address);
-  else history.replaceState(null, "", address);
-  chosen = false;
-}
-
-// The back button, and a link that is pasted into an open page.
-addEventListener("popstate", () => {
-  if (location.hash === addressOf(state)) return;
+function readAddress() {
   Object.assign(state, fromAddress(), { turn: state.turn, strong: state.strong });
   show();
-});
+}
 
 // ---- cards
-
-// A card holds one picture with its heading, its words and its downloads.
-// picture: id, place, look, plot(), title(), words(), origin(), file(), numbers(), links().
-function card(picture) {
-  if (cards.has(picture.id)) {
-    Object.assign(cards.get(picture.id), picture);
-    return cards.get(picture.id);
-  }
-  const figure = element("figure"), head = element("div"), save = element("div"), plot = element("div");
-  const title = element("h2"), words = element("figcaption");
-  figure.id = picture.id;
-  title.id = `${picture.id}-title`;
-  words.id = `${picture.id}-words`;
-  // What a moved point leads to is spoken too.
-  if (picture.look === "history") words.setAttribute("aria-live", "polite");
-  figure.setAttribute("aria-labelledby", title.id);
-  head.className = "head";
-  save.className = "save";
-  plot.className = `plot ${picture.look}`;
-  plot.setAttribute("role", "img");
-  plot.setAttribute("aria-describedby", words.id);
-  const made = Object.assign(picture, { figure, plotted: plot, titled: title, worded: words, saves: save, drawn: null });
-  const button = (text, label, action) => {
-    const b = element("button", text);
-    b.type = "button";
-    b.dataset.label = label;
-    b.addEventListener("click", () => Promise.resolve(action()).catch(complain));
-    save.append(b);
-  };
-  button("PNG", "Download as PNG", () => savePicture(made, "png"));
-  button("SVG", "Download as SVG", () => savePicture(made, "svg"));
-  button("CSV", "Download the numbers as CSV", () => saveNumbers(made));
-  if (picture.netcdf && about.served) button("netCDF", "Download as netCDF", () => picture.netcdf());
-  head.append(title, save);
-  figure.append(head, plot, ...(picture.below ? picture.below() : []), words);
-  byId(picture.place).append(figure);
-  cards.set(picture.id, made);
-  return made;
-}
-
-async function draw(picture) {
-  const made = card(picture);
-  made.titled.textContent = made.title();
-  made.plotted.setAttribute("aria-label", made.title());
-  made.worded.replaceChildren(...made.words());
-  for (const b of made.saves.children) b.setAttribute("aria-label", `${b.dataset.label}: ${made.title()}`);
-  const { data, layout: drawn } = made.plot();
-  const first = made.drawn === null;
-  made.drawn = true;
-  await Plotly.react(made.plotted, data, drawn, CONFIG);
-  if (first) connectPlot(made);
-}
-
-// A click is where the button goes up where it went down: a surface that was turned was not clicked on.
-const DRAG = 5;
-function connectPlot(made) {
-  let down = null, moved = false, pending = null;
-  made.plotted.addEventListener("pointerdown", (event) => { down = [event.clientX, event.clientY]; moved = false; pending = null; }, true);
-  addEventListener("pointermove", (event) => {
-    if (down && event.buttons && Math.hypot(event.clientX - down[0], event.clientY - down[1]) > DRAG) moved = true;
-  }, true);
-  // A surface tells of a click while the button is still down.
-  addEventListener("pointerup", () => {
-    const point = pending;
-    down = pending = null;
-    if (point && !moved) made.click(point);
-  }, true);
-  if (made.click) made.plotted.on("plotly_click", (event) => {
-    if (down) pending = event.points[0];
-    else if (!moved) made.click(event.points[0]);
-  });
-  made.plotted.on("plotly_relayout", (change) => linked(made, change));
-}
 
 // Two maps show the same stretch, two surfaces the same side, and the slider of the turn follows.
 let linking = false;
@@ -178,14 +101,6 @@ async function turnTo(degrees) {
   linking = false;
 }
 
-function discard(id) {
-  const made = cards.get(id);
-  if (!made) return;
-  Plotly.purge(made.plotted);
-  made.figure.remove();
-  cards.delete(id);
-}
-
 // ---- what is shown
 
 function chosenIndex() {
@@ -219,6 +134,7 @@ function mapPicture(n, k, numbers, scale, kind) {
     file: () => fileName(name, index.name, `SR${AXES.stiffness_ratio[state.ratio]}`, kind),
     numbers: () => mapNumbers(state, index, numbers),
     click: (point) => movePoint(point.x, point.y),
+    relayed: (change) => linked(cards.get(`${kind}-${n}`), change),
     below: kind === "map" ? undefined : () => [turning(n)],
   };
 }
@@ -272,7 +188,7 @@ function historyPicture(n, k, found) {
     title: () => `History: ${name}, ${pointWords(at)}`,
     words: () => [element("div", `${historyWords(found)} Choose the bare frame in the legend to lay it under the floor.`), ...(found.notice ? [notice(found.notice)] : [])],
     origin: () => originWords(k),
-    file: () => { const p = pointOf(at); return fileName(name, "history", `T${p.period}`, `SR${p.stiffness_ratio}`, `${p.pretension}kN`); },
+    file: () => { const p = pointOf(at); return fileName(name, "history", `T${p.period}`, `SR${p.stiffness_ratio}`, `${p.pretension}${FORCE}`); },
     numbers: () => historyNumbers(found),
     netcdf: async () => {
       const now = cards.get(`history-${n}`);
@@ -312,7 +228,7 @@ function allPicture(everything) {
     origin: () => `Records: ${everything.map(({ name }) => name).join(", ")}`,
     file: () => fileName("all", index.name, "over-pretension"),
     numbers: () => ({
-      heads: ["pretension_kN", ...everything.map(({ name }) => `${name}_${named(index)}`)],
+      heads: [`pretension_${FORCE}`, ...everything.map(({ name }) => `${name}_${named(index)}`)],
       rows: AXES.pretension.map((force, f) => [force, ...everything.map(({ numbers }) => cell(numbers[index.name], state.ratio, f, state.period))]),
     }),
     click: (point) => movePoint(AXES.period[state.period], point.x),
@@ -322,26 +238,13 @@ function allPicture(everything) {
 // More are too many to tell apart, and to load.
 const MANY = 60;
 async function showAll(turn) {
-  if (about.records.length < 2 || about.records.length > MANY) return;
-  const everything = await Promise.all(about.records.map(async (r, k) => ({ k, name: r.name, numbers: await recordNumbers(k) })));
+  const { cube } = about.records[state.record], ks = [...about.records.keys()].filter((k) => about.records[k].cube === cube);
+  if (ks.length < 2 || ks.length > MANY) { discard("all-records"); return; }
+  const everything = await Promise.all(ks.map(async (k) => ({ k, name: about.records[k].name, numbers: await recordNumbers(k) })));
   if (turn === asked) await draw(allPicture(everything));
 }
 
-function notice(text) {
-  const made = element("p", text);
-  made.className = "notice";
-  return made;
-}
-
-function complain(error) {
-  byId("status").textContent = error.message;
-}
-
 // ---- drawing: the map answers at once, all else once it is on the screen. Marks tell who measures.
-
-let asked = 0;
-// The next frame is painted when this is done; a frame's own callback would still hold it up.
-const painted = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
 
 async function show(delay = 0) {
   const turn = ++asked;
@@ -354,7 +257,7 @@ async function show(delay = 0) {
     controlsFromState();
     toAddress();
     const index = chosenIndex();
-    const scale = scaleOf(shown.map(({ numbers }) => numbers[index.name]), index.colours);
+    const scale = scaleOf(shown.map(({ numbers }) => numbers[index.name]), index.colours, index.neutral);
     if (shown.length === 1) ["map-1", "surface-1", "history-1", "energy-1"].forEach(discard);
     const maps = (kind) => shown.map(({ k, numbers }, n) => () => draw(mapPicture(n, k, numbers, scale, kind)));
     const curves = ["over-pretension", ...(index.best ? ["best-pretension"] : [])].map((kind) => () => draw(curvePicture(kind, shown)));
@@ -447,7 +350,7 @@ function tables(shown) {
   if (about.served) {
     shown.forEach(({ k }, n) => {
       const found = histories.get(n);
-      if (!found || found.record !== about.records[k].name) return;
+      if (!found || found.record !== about.records[k].record) return;
       const compared = found.compared.map((one) => [one.title, written(one.history, one.unit), one.cube === null ? "not in the cube" : written(one.cube, one.unit)]);
       block(`compared-${n}`, `History and cube: ${about.records[k].name}`, table(`Peaks at ${pointWords(state)}`, ["Quantity", "History", "Cube"], compared));
     });
@@ -459,8 +362,10 @@ function tables(shown) {
   }
   const list = element("dl");
   for (const { k } of shown) list.append(element("dt", about.records[k].name), element("dd", originWords(k)));
-  for (const [term, text] of [["Cube", about.title], ["Made", about.made], ["Note", about.comment]]) {
-    if (text) list.append(element("dt", term), element("dd", text));
+  for (const cube of about.cubes) {
+    for (const [term, text] of [["Cube", [cube.name, cube.title].filter(Boolean).join(": ")], ["Made", cube.made], ["Note", cube.comment]]) {
+      if (text) list.append(element("dt", term), element("dd", text));
+    }
   }
   block("origin-of-numbers", "Where the numbers come from", list);
   byId("more").replaceChildren(...blocks);
@@ -468,25 +373,20 @@ function tables(shown) {
 
 // ---- controls
 
-function options(select, names, first = 0) {
-  names.forEach((name, k) => {
-    const made = element("option", name);
-    made.value = String(k + first);
-    select.append(made);
-  });
-}
-
 function controlsFromState() {
   const told = {
     ratio: written(AXES.stiffness_ratio[state.ratio]),
     period: written(AXES.period[state.period], "s"),
-    force: state.force === null ? "" : written(AXES.pretension[state.force], "kN"),
+    force: state.force === null ? "" : written(AXES.pretension[state.force], FORCE),
   };
   const at = pointOf(state);
   for (const field of FIELDS) {
     const box = byId(`field-${field.name}`);
     if (box && document.activeElement !== box) box.value = Number.isFinite(at[field.name]) ? String(Number(at[field.name].toPrecision(6))) : "";
   }
+  unitsFromState();
+  const force = FIELDS.find((field) => field.name === "pretension"), named = byId("label-pretension");
+  if (named) named.textContent = `Pretension, ${force.unit}`;
   for (const name of ["record", "compare", "index", "ratio", "period", "force"]) {
     const value = String(state[name] ?? 0);
     if (control[name].value !== value) control[name].value = value;
@@ -530,7 +430,7 @@ async function chooseBest() {
   const told = searchedAt(state, state.record, state.period);
   if (told && Number.isFinite(told.value)) {
     state.force = nearest(AXES.pretension, told.pretension);
-    state.free = { ...pointOf(state), pretension: told.pretension };
+    state.free = freeAt({ ...pointOf(state), pretension: told.pretension }, state.record);
     show();
     return;
   }
@@ -541,8 +441,10 @@ async function chooseBest() {
 
 function connect() {
   byId("name").textContent = about.name;
-  byId("frame").textContent = about.frame.map((one) => `${one.title} ${written(one.value, one.unit)}`).join(", ");
-  byId("origin").textContent = `${about.records.length} records, ${SIZES.ratio} stiffness ratios, ${SIZES.force} pretensions, ${SIZES.period} periods. ${about.title}.`;
+  const several = about.cubes.length > 1;
+  byId("frame").replaceChildren(...about.cubes.map(({ name, frame }) => element("span", (several ? `${name}: ` : "") +
+    frame.map((one) => `${one.title} ${written(one.value, one.unit)}`).join(", "))));
+  byId("origin").textContent = `${about.records.length} records, ${SIZES.ratio} stiffness ratios, ${SIZES.force} pretensions, ${SIZES.period} periods. ${about.cubes[0].title}.`;
   options(control.record, about.records.map((r) => r.name));
   options(control.compare, ["no other", ...about.records.map((r) => r.name)], -1);
   options(control.index, about.indices.map((index) => index.title));
@@ -554,6 +456,8 @@ function connect() {
     state[name] = Number(control[name].value);
     if (name !== "record" && name !== "compare" && name !== "index") state.free = null;
     else chosen = true;
+    // The other cube's picture stays that of the same earthquake.
+    if (name === "record" && about.cubes.length > 1 && state.compare >= 0) state.compare = counterpart(state.record);
     if (state.compare === state.record) state.compare = -1;
     show(delay);
   });
@@ -561,14 +465,12 @@ function connect() {
   // A slider being dragged asks for the history when it rests.
   for (const name of ["ratio", "period", "force"]) follow(name, "input", 120);
   if (about.served) fields();
-  byId("link").addEventListener("click", copyLink);
-  byId("theme").addEventListener("click", () => theme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
   byId("strong").addEventListener("change", () => { state.strong = byId("strong").checked; redraw("history"); });
   byId("strong").parentElement.hidden = !about.served;
   control.best.addEventListener("click", chooseBest);
   control.line.addEventListener("click", searchLine);
   control.line.hidden = !about.served;
-  byId("controls").addEventListener("submit", (event) => event.preventDefault());
+  connectPage();
   if (!about.served) {
     byId("histories").append(notice(`This file has no server behind it, so a click shows the peaks of its cell in the tables below. For histories: fdspec explore ${about.name}`));
   }
@@ -583,6 +485,7 @@ function fields() {
     box.inputMode = "decimal";
     box.autocomplete = "off";
     label.htmlFor = box.id;
+    label.id = `label-${field.name}`;
     box.addEventListener("change", () => typed(field, box));
     row.append(label, box);
     place.append(row);
@@ -600,38 +503,8 @@ function typed(field, box) {
   state.ratio = nearest(AXES.stiffness_ratio, at.stiffness_ratio);
   state.force = nearest(AXES.pretension, at.pretension);
   const cubes = pointOf({ ...state, free: null });
-  state.free = FIELDS.every((one) => Math.abs(at[one.name] - cubes[one.name]) <= 1e-9 * Math.abs(cubes[one.name])) ? null : at;
+  state.free = FIELDS.every((one) => Math.abs(at[one.name] - cubes[one.name]) <= 1e-9 * Math.abs(cubes[one.name])) ? null : freeAt(at, state.record);
   show();
 }
 
-async function copyLink() {
-  const button = byId("link");
-  try {
-    await navigator.clipboard.writeText(location.href);
-    button.textContent = "Copied";
-  } catch {
-    button.textContent = "See the address bar";
-  }
-  setTimeout(() => { button.textContent = "Copy link"; }, 2000);
-}
-
-async function redraw(kind) {
-  for (const [id, made] of cards) if (!kind || id.startsWith(kind)) await draw(made);
-}
-
-// Light or dark, as the system has it until the reader says otherwise.
-function theme(name) {
-  document.documentElement.dataset.theme = name;
-  setLook(name === "dark" ? DARK : LIGHT);
-  byId("theme").textContent = name === "dark" ? "Light" : "Dark";
-  redraw().catch(complain);
-}
-
-// On paper pictures are as wide as the page, not as the window.
-const PAPER = 660;
-addEventListener("beforeprint", () => { for (const made of cards.values()) Plotly.relayout(made.plotted, { width: PAPER, autosize: false }); });
-addEventListener("afterprint", () => { for (const made of cards.values()) Plotly.relayout(made.plotted, { width: null, autosize: true }); });
-
-theme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
-connect();
-show();
+start();

@@ -1,0 +1,35 @@
+"""Names of variables and units as they stand at an axis."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from fdspec.printable import in_words
+
+MEASURES: Final = {
+    "pga": "peak ground acceleration",
+    "pgv": "peak ground velocity",
+    "pgd": "peak ground displacement",
+    "sa": "spectral acceleration",
+    "arias": "Arias intensity",
+    "cav": "cumulative absolute velocity",
+}
+"""Measures of intensity that go by their letters in files."""
+
+POWERS: Final = {"^2": "²", "^3": "³"}
+
+
+def axis_label(name: str, unit: str = "1") -> str:
+    """Return what stands at an axis: words, and the unit where there is one.
+
+    Examples
+    --------
+    >>> axis_label("pga", "m/s^2")
+    'peak ground acceleration, m/s²'
+    >>> axis_label("peak_drift_ratio", "1")
+    'peak drift ratio'
+    """
+    for power, sign in POWERS.items():
+        unit = unit.replace(power, sign)
+    words = MEASURES.get(name.lower(), in_words(name))
+    return words if unit in ("", "1") else f"{words}, {unit}"
