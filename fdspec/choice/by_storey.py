@@ -1,4 +1,4 @@
-"""What each storey of one design goes through under each record: the numbers that slots and braces are cut by."""
+"""What each storey of a design goes through under each record: what slots and braces are cut by."""
 
 from __future__ import annotations
 

@@ -104,9 +104,9 @@ def choose(
         The variables of `fdspec.choice.variables.CHOICE`: the recommendation and its band by storey; over
         (case, record) the responses of the bare and the braced frame, of the recommendation and of
         friction at its bounds, and of each storey (``storey_slip``, ``storey_drift``, ``storey_brace_force``
-        and others); every pretension tried and the index there; the same for other braces.  With limits:
-        ``limits_met``, ``used`` and ``meeting_slip_force``; the band is then the lowest stretch that meets
-        them, NaN where there is none.
+        and others, under the motions times ``storey_level``, the largest level); every pretension tried and
+        the index there; the same for other braces.  With limits: ``limits_met``, ``used`` and
+        ``meeting_slip_force``; the band is then the lowest stretch that meets them, NaN where there is none.
         `fdspec.report` makes text and a page of it.
 
     Raises
@@ -170,7 +170,8 @@ def choose(
         force, stretch = target.slip_force, target.stretch
     cases = {"chosen": force, "lower": lower * force, "upper": upper * force}
     responses, indices = _cases(bench, cases)
-    storeys = _by_storey(bench, cases)
+    level = max(levels) if limits else 1.0
+    storeys = _by_storey(bench, cases, level)
     ends = _per_storey(stretch, shape)
     per_pretension = friction_coefficient * normal_force_factor
     own = indices[CASES.index("chosen")]
@@ -191,6 +192,7 @@ def choose(
         "index_of_record": indices,
         "regret": own / least - 1.0,
         **responses,
+        "storey_level": np.float64(level),
         **storeys,
     }
     axes: dict[str, Any] = {
@@ -279,15 +281,16 @@ def _cases(bench: Bench, forces: dict[str, FloatArray]) -> tuple[dict[str, Float
     return {name: table[of] for name, of in RESPONSES.items()}, bench.index_of(table)
 
 
-def _by_storey(bench: Bench, forces: dict[str, FloatArray]) -> dict[str, FloatArray]:
-    """Demands (cases, records, N) of every storey.
+def _by_storey(bench: Bench, forces: dict[str, FloatArray], level: float) -> dict[str, FloatArray]:
+    """Demands (cases, records, N) of every storey, the motions times a level.
 
     A light brace rings when friction changes its sign, and so carries more than the slip force.
     """
     never = np.full(bench.storeys, np.inf)
     with_forces = [never, *(forces[case] for case in CASES[2:])]
     designs = [without_braces(bench.building), *(bench.with_slip_force(force) for force in with_forces)]
-    return demands_of(designs, bench)
+    shaken = bench if level == 1.0 else replace(bench, motions=[m.times(level) for m in bench.motions])
+    return demands_of(designs, shaken)
 
 
 def _stretch(found: Scan, band: float) -> FloatArray:

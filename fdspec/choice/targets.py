@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,9 @@ from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
 from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.progress import progress as progress_bar
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 FloatArray = NDArray[np.float64]
 
@@ -75,6 +79,20 @@ class Target(NamedTuple):
     def stretch(self) -> FloatArray:
         """First and last slip force (2,) of the lowest stretch, N; NaN where there is none."""
         return self.bands[0] if self.met else np.full(2, np.nan)
+
+
+def target_of(choice: xr.Dataset) -> Target:
+    """Return what a choice that was made to meet limits holds of them."""
+    limits: dict[str, float] = json.loads(choice.attrs["parameters"])["limits"]
+    force = choice["slip_force"].values
+    of_all = choice["meeting_slip_force"].transpose("stretch", "bound", "storey").values
+    told = tuple(
+        Demand(float(level), str(name), float(choice["used"][i, j]) * limits[str(name)], limits[str(name)])
+        for i, level in enumerate(choice["level"].values)
+        for j, name in enumerate(choice["limited"].values)
+    )
+    bands = of_all.max(axis=2) if of_all.size else np.empty((0, 2))
+    return Target(bool(choice["limits_met"]), bands, force, told)
 
 
 def meet(

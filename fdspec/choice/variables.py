@@ -116,6 +116,7 @@ CHOICE: Final[Registry] = registry_of(
         Variable("residual_drift", _CASE, "m", "largest final displacement relative to the floor below"),
         Variable("slip_travel", _CASE, "m", "largest total distance slipped in any damper"),
         Variable("dissipated_energy", _CASE, "J", "energy dissipated by friction in all dampers"),
+        Variable("storey_level", (), "1", "factor on the records under which demands of storeys are told"),
         Variable("storey_acceleration", _EACH_STOREY, "m/s^2", "peak absolute acceleration of the floor"),
         Variable("storey_drift", _EACH_STOREY, "m", "peak displacement relative to the floor below"),
         Variable(
