@@ -16,7 +16,9 @@ PAGES = (".html", ".htm")
 
 @click.command()
 @click.argument("cube", metavar="CUBE.nc")
-@click.option("-o", "--output", metavar="FILE", help="What to write; .nc, .csv or .html says the form.")
+@click.option(
+    "-o", "--output", metavar="FILE", help="What to write; .nc, .csv, .xlsx, .mat or .html says the form."
+)
 @click.option(
     "--html",
     "page",

@@ -1,0 +1,1 @@
+"""Buildings in the languages of other programs."""
