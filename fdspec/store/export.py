@@ -42,11 +42,11 @@ def export(cube: xr.Dataset, path: str | os.PathLike[str], *, record: str | None
     column for each storey; its changes of phase go into a file of their own beside it,
     ``NAME-transitions.csv``.
 
-    ``.xlsx``: the same rows as a workbook, a sheet of its own for changes of phase, and a sheet ``about``
-    with units, meanings and origin; needs openpyxl. What is no number is an empty cell, infinity the text inf.
+    ``.xlsx``: the same rows as a workbook, changes of phase on a sheet of their own, and a sheet ``about``
+    with units, meanings and origin; needs openpyxl. What is no number is an empty cell, infinity text.
 
-    ``.mat``: every variable as an array over its dims, which ``dims`` names, for Matlab and Octave; ``units``,
-    ``meanings`` and ``about`` say the rest.
+    ``.mat``: every variable as an array over its dims, which ``dims`` names, for Matlab and Octave;
+    ``units``, ``meanings`` and ``about`` say the rest.
 
     Parameters
     ----------
