@@ -35,8 +35,8 @@ OF_BUILDINGS: Final = ("opensees", "simcenter")
     "-o",
     "--output",
     metavar="FILE",
-    help="What to write; .nc, .csv, .xlsx, .mat or .html says the form.  [default with --format: a name after "
-    "what is exported]",
+    help="What to write; .nc, .csv, .xlsx, .mat or .html says the form.  [default with --format: a name "
+    "after what is exported]",
 )
 @click.option(
     "--html",
@@ -76,12 +76,12 @@ def export(
 ) -> None:
     """Write a cube for other programs, or as a page, or a building as another program's script.
 
-    FILE.csv has a row for each cell and a column for each axis, below lines with # that tell units and origin;
-    of a history, a row for each time, and FILE-transitions.csv one for each change of phase. FILE.xlsx holds
-    the same as a workbook (fdspec[excel]), FILE.mat the arrays for Matlab and Octave. FILE.nc holds one record
-    over stiffness ratio, pretension and period, for ParaView, CDO and others that take three axes. FILE.html
-    shows maps, surfaces and the best pretension in any browser, without a server; histories need
-    `fdspec explore`.
+    FILE.csv has a row for each cell and a column for each axis, below lines with # that tell units and
+    origin; of a history, a row for each time, and FILE-transitions.csv one for each change of phase.
+    FILE.xlsx holds the same as a workbook (fdspec[excel]), FILE.mat the arrays for Matlab and Octave. FILE.nc
+    holds one record over stiffness ratio, pretension and period, for ParaView, CDO and others that take three
+    axes. FILE.html shows maps, surfaces and the best pretension in any browser, without a server; histories
+    need `fdspec explore`.
 
     \b
     Examples:

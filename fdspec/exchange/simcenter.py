@@ -22,10 +22,10 @@ def simcenter_script(building: str, *, name: str = "building") -> str:
     Returns
     -------
     str
-        Python. It needs fdspec where it runs, and gives the demands by SimCenter's names: ``1-PFA-1-1`` the
-        peak floor acceleration, location 0 the ground; ``1-PFD-1-1`` the peak floor displacement; with heights
-        known ``1-PID-1-1`` the peak and ``1-RID-1-1`` the residual drift ratio, ``1-PRD-1-1`` the peak roof
-        drift ratio. Accelerations and lengths are in the units of the event's file.
+        Python. It needs fdspec where it runs, and gives the demands by SimCenter's names: ``1-PFA-1-1``
+        the peak floor acceleration, location 0 the ground; ``1-PFD-1-1`` the peak floor displacement; with
+        heights known ``1-PID-1-1`` the peak and ``1-RID-1-1`` the residual drift ratio, ``1-PRD-1-1`` the
+        peak roof drift ratio. Accelerations and lengths are in the units of the event's file.
 
     Raises
     ------

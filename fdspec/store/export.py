@@ -43,7 +43,8 @@ def export(cube: xr.Dataset, path: str | os.PathLike[str], *, record: str | None
     ``NAME-transitions.csv``.
 
     ``.xlsx``: the same rows as a workbook, changes of phase on a sheet of their own, and a sheet ``about``
-    with units, meanings and origin; needs openpyxl. What is no number is an empty cell, infinity text.
+    with units, meanings and origin; needs openpyxl. Numbers have 16 digits,
+    not a number is an empty cell, infinity is text.
 
     ``.mat``: every variable as an array over its dims, which ``dims`` names, for Matlab and Octave;
     ``units``, ``meanings`` and ``about`` say the rest.
