@@ -59,6 +59,17 @@ if TYPE_CHECKING:
 @click.option(
     "--raw", is_flag=True, help="Leave the catalogue's records as recorded, not scaled to the study's PGA."
 )
+@click.option(
+    "--free-vibration",
+    type=click.FloatRange(min=0.0),
+    metavar="S",
+    help="Go on after each record, the ground at rest, s.",
+)
+@click.option(
+    "--at-rest",
+    is_flag=True,
+    help="Go on until no damper can slip any more: residuals where the building comes to rest.",
+)
 @click.option("--no-certify", is_flag=True, help="Leave out the energy balance of each history; faster.")
 @click.option(
     "--dry-run",
@@ -80,6 +91,8 @@ def sweep(
     channel: str | None,
     intensity: list[float] | None,
     raw: bool,
+    free_vibration: float | None,
+    at_rest: bool,
     no_certify: bool,
     dry_run: bool,
     print_study: bool,
@@ -118,6 +131,12 @@ def sweep(
     study = dataclasses.replace(
         study, scaled=study.scaled and not raw, certify=study.certify and not no_certify
     )
+    if free_vibration is not None:
+        study = dataclasses.replace(
+            study, after=dataclasses.replace(study.after, free_vibration=free_vibration)
+        )
+    if at_rest:
+        study = dataclasses.replace(study, after=dataclasses.replace(study.after, at_rest=True))
     if intensity is not None:
         study = with_intensity(study, intensity)
     if print_study:
