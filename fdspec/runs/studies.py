@@ -50,6 +50,7 @@ def compute(study: AnyStudy, motions: Motions, **how: Any) -> xr.Dataset:
         dict(zip(study.grid.names, study.grid.buildings, strict=True)),
         stiffness_scale=study.grid.stiffness_scale,
         slip_scale=study.grid.slip_scale,
+        intensity=study.grid.intensity,
         **what,
     )
 

@@ -73,6 +73,23 @@ def test_a_sweep_goes_on_after_its_records(
         assert main(["sweep", str(path), "-o", "cube.nc"]) == 2
 
 
+@pytest.mark.parametrize("by_file", [False, True], ids=["option", "file"])
+def test_the_intensities_of_a_study_of_buildings_are_all_run(folder: Path, by_file: bool) -> None:
+    path = folder / "buildings.toml"
+    if by_file:
+        path.write_text(path.read_text() + "intensity = [0.5, 2.0]\n")
+    how = [] if by_file else ["--intensity", "0.5,2"]
+    assert main(["sweep", str(path), "-o", "cube.nc", *how]) == 0
+    cube = open_cube("cube.nc")
+    assert cube["intensity"].values.tolist() == [0.5, 2.0]
+    building = fdspec.model.building_file.read_building("two.toml", design=True)
+    motion = fdspec.load_record("FSR1")
+    for level in (0.5, 2.0):
+        history = fdspec.simulate(building, motion.times(level))
+        ours = cube["peak_drift"].sel(intensity=level).values.ravel()
+        np.testing.assert_allclose(ours, history["peak_drift"].values, rtol=1e-9)
+
+
 def test_a_history_goes_on_until_it_is_at_rest(folder: Path) -> None:
     assert main(["simulate", "--building", "two.toml", "--record", "FSR1", "--at-rest", "-o", "h.nc"]) == 0
     building = fdspec.model.building_file.read_building("two.toml", design=True)
