@@ -172,6 +172,9 @@ def choose(
     responses, indices = _cases(bench, cases)
     level = max(levels) if limits else 1.0
     storeys = _by_storey(bench, cases, level)
+    trials, trial_indices = found.x, of_record
+    if target is not None:  # what is recommended was no trial of the search for the least index
+        trials, trial_indices = _with_cases(trials, of_record, cases, indices)
     ends = _per_storey(stretch, shape)
     per_pretension = friction_coefficient * normal_force_factor
     own = indices[CASES.index("chosen")]
@@ -185,9 +188,9 @@ def choose(
         "brace_force": storeys["storey_brace_force"][CASES.index("upper")].max(axis=0),
         "scaled_index": np.array([scans[scale].least for scale in scales]),
         "scaled_pretension": np.array([scans[scale].best * shape for scale in scales]) / per_pretension,
-        "trial_pretension": found.x[:, np.newaxis] * shape / per_pretension,
-        "trial_index": found.y,
-        "trial_index_of_record": of_record,
+        "trial_pretension": trials[:, np.newaxis] * shape / per_pretension,
+        "trial_index": bench.together(trial_indices),
+        "trial_index_of_record": trial_indices,
         "index": bench.together(indices),
         "index_of_record": indices,
         "regret": own / least - 1.0,
@@ -291,6 +294,16 @@ def _by_storey(bench: Bench, forces: dict[str, FloatArray], level: float) -> dic
     designs = [without_braces(bench.building), *(bench.with_slip_force(force) for force in with_forces)]
     shaken = bench if level == 1.0 else replace(bench, motions=[m.times(level) for m in bench.motions])
     return demands_of(designs, shaken)
+
+
+def _with_cases(
+    trials: FloatArray, of_record: FloatArray, cases: dict[str, FloatArray], indices: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Trials (t,) and the records' indices there (t, records), with those of the cases among them."""
+    places = np.concatenate([trials, [force.max() for force in cases.values()]])
+    values = np.concatenate([of_record, [indices[CASES.index(case)] for case in cases]])
+    ascending, first = np.unique(places, return_index=True)
+    return ascending, values[first]
 
 
 def _stretch(found: Scan, band: float) -> FloatArray:

@@ -17,7 +17,8 @@ from fdspec.model.motion import GroundMotion
 from fdspec.records.writing import write_record
 from fdspec.store import chunks
 from fdspec.store.check import check
-from tests.workflow.test_killed_buildings import SIX, blocks_done, start
+from fdspec.variables import INTENSITY_BUILDING_CUBE
+from tests.workflow.test_killed_buildings import SIX, start
 
 WHOLE = os.environ.get("FDSPEC_CAMPAIGN") == "whole"
 """Whether all 2 640 histories are run, some four minutes on two busy cores; else every fifth intensity."""
@@ -46,8 +47,12 @@ def campaign(folder: Path) -> Path:
 
 def done(store: Path) -> float:
     """Share of the store's blocks that are finished."""
-    finished = blocks_done(store)
-    return len(finished) / len(chunks.described(store)[0]) if finished else 0.0
+    if not chunks.is_store(store):
+        return 0.0
+    blocks, _ = chunks.described(store)
+    status = INTENSITY_BUILDING_CUBE["status"]
+    finished = [chunks.chunk_path(store, blocks, n, status).exists() for n in range(len(blocks))]
+    return sum(finished) / len(finished)
 
 
 @pytest.mark.slow
