@@ -48,6 +48,11 @@ if TYPE_CHECKING:
     metavar="NAME|FILE",
     help="A record of the catalogue or a file, in place of the study's; repeat it for several.",
 )
+@click.option(
+    "--record-suite",
+    type=click.Choice(["far-field", "near-field-pulse", "near-field-no-pulse"]),
+    help="All records of a set of FEMA P695, as recorded; needs fdspec[records].",
+)
 @file_options
 @click.option(
     "--intensity",
@@ -86,6 +91,7 @@ def sweep(
     study_file: str | None,
     output: str | None,
     records: tuple[str, ...],
+    record_suite: str | None,
     units: str | None,
     dt: float | None,
     channel: str | None,
@@ -116,6 +122,7 @@ def sweep(
     \b
         fdspec sweep --print-study > mine.toml
     """
+    from fdspec.records.suites import suite_names
     from fdspec.runs.building_study import read_study
     from fdspec.runs.studies import with_intensity
     from fdspec.runs.study import Study
@@ -123,8 +130,10 @@ def sweep(
 
     started = time.perf_counter()
     study: AnyStudy = Study() if study_file is None else read_study(study_file)
-    if records:
-        chosen = named_records(records, units, dt, channel)
+    if records or record_suite:
+        chosen = named_records(records, units, dt, channel) if records else ()
+        if record_suite:
+            chosen = (*chosen, *suite_names(record_suite))
         study = dataclasses.replace(study, records=chosen, folder=Path())
     elif units or dt or channel:
         raise click.UsageError("--units, --dt and --channel tell about a file named with --record")

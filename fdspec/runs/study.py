@@ -28,6 +28,7 @@ from fdspec.model.grid import GRID_FIELDS, FloatArray, Grid, checked, contradict
 from fdspec.model.motion import GroundMotion
 from fdspec.model.toml_lines import key_lines, line_of, parsed
 from fdspec.records import catalogue, load_record, read_record
+from fdspec.records.suites import SUITES, is_of_suite, suite_names
 from fdspec.runs.after import NOTHING, After
 from fdspec.runs.record_scaling import SCALING_FIELDS, Scaling, scaling_of
 from fdspec.variables import CUBE, device_variables
@@ -333,6 +334,8 @@ def unknown_records(given: object, folder: Path) -> list[tuple[tuple[str | int, 
         path = record.get("path") if isinstance(record, dict) else record
         if not isinstance(path, str):
             continue  # told already
+        if path in SUITES or is_of_suite(path):
+            continue
         if is_pattern(path, folder):
             found += [(("records", index), sentence) for sentence in _unmatched(path, folder)]
         elif _is_path(path, folder):
@@ -359,6 +362,9 @@ def matching(
     mistakes: list[tuple[tuple[str | int, ...], str]] = []
     for index, record in enumerate(records):
         path = record if isinstance(record, str) else record.path
+        if path in SUITES and isinstance(record, str):
+            found += suite_names(path)
+            continue
         if not is_pattern(path, folder):
             found.append(record)
             continue
