@@ -397,7 +397,7 @@ def _run_frame(
 
 def _peaks(
     frames: Sequence[Frame], motion: GroundMotion, *, one_by_one: bool
-) -> tuple[Sequence[FloatArray], Sequence[FloatArray]]:
+) -> tuple[FloatArray, FloatArray]:
     """Peaks by storey and totals of frames; one by one they tell the slip too, and differ by rounding."""
     if not one_by_one:
         from fdspec.engines.frames import peaks_of_frames
@@ -406,4 +406,4 @@ def _peaks(
     from fdspec.engines.many_storeys import peaks_of
 
     found = [peaks_of(frame, motion, certify=False) for frame in frames]
-    return [rows for rows, _ in found], [totals for _, totals in found]
+    return np.stack([rows for rows, _ in found]), np.stack([totals for _, totals in found])
