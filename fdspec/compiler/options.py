@@ -106,6 +106,10 @@ if config.DISABLE_JIT:
         """Give a b + c, here rounded twice: Python has had an fma only since 3.13."""
         return a * b + c
 
+    def lowest(bits: int) -> int:
+        """Give the place of the lowest bit that is set; some must be."""
+        return (bits & -bits).bit_length() - 1
+
 else:
 
     def _marking(attribute: str) -> Callable[[Any, Any, Any, Any], Any]:
@@ -137,6 +141,15 @@ else:
             return builder.fma(*arguments)
 
         return types.float64(types.float64, types.float64, types.float64), code
+
+    @intrinsic  # type: ignore[untyped-decorator]
+    def lowest(typing_context: Any, bits: Any) -> Any:  # noqa: ARG001
+        """Give the place of the lowest bit that is set; some must be."""
+
+        def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:  # noqa: ARG001
+            return builder.cttz(*arguments, context.get_constant(types.boolean, 1))
+
+        return types.int64(types.int64), code
 
 
 def entry(signature: Any) -> Callable[[Function], Function]:

@@ -7,6 +7,7 @@ keeps it, and when the worker that held it dies it is made again.
 from __future__ import annotations
 
 import logging
+import math
 import multiprocessing.resource_tracker
 import signal
 import socket
@@ -159,7 +160,7 @@ def _round(
 
     Ends early, without a word of the others, when the scheduler is lost.
     """
-    from distributed import KilledWorker, as_completed
+    from distributed import as_completed
 
     here = version()
     shared = client.submit(_itself, work, pure=False)
@@ -189,21 +190,13 @@ def _round(
 
     first = [send(index) for index in islice(waiting, IN_FLIGHT)]
     completed = as_completed(first, loop=client.loop)
+    company = _Company(client)
     try:
-        for future in _as_they_come(client, completed):
+        for future in _as_they_come(company, completed):
             index = index_of.pop(future)
-            if future.status == "finished":
-                try:
-                    result = future.result()
-                except (OSError, CancelledError):  # the scheduler went between the word and the result
-                    return
-                yield index, result
-            elif future.status == "error":
-                error = future.exception()
-                if not isinstance(error, KilledWorker):
-                    raise error if isinstance(error, FdspecError) else ClusterError(_told(error)) from error
-                yield index, error
-            else:  # cancelled: the scheduler has gone, and all that it knew
+            try:
+                yield index, _outcome(company, future)
+            except _SchedulerLostError:
                 return
             for following in islice(waiting, 1):
                 completed.add(send(following))
@@ -212,24 +205,69 @@ def _round(
             client.cancel(list(index_of))
 
 
-def _as_they_come(client: Client, completed: Any) -> Iterator[Future[Any]]:
+def _as_they_come(company: _Company, completed: Any) -> Iterator[Future[Any]]:
     """Give futures as they end; an error when for long there has been neither a result nor a worker."""
-    heard = time.monotonic()
-    alone_since = None
     while not completed.is_empty():
         if batch := completed.next_batch(block=False):
             yield from batch
-            heard, alone_since = time.monotonic(), None
+            company.heard_of()
             continue
         time.sleep(0.005)
-        if time.monotonic() - heard < SILENCE:
-            continue
-        heard = time.monotonic()
-        if client.status != "running" or _workers(client):
-            alone_since = None
-        elif alone_since is None:
-            alone_since = heard
-        elif heard - alone_since > PATIENCE:
+        company.look_after_silence()
+
+
+class _SchedulerLostError(Exception):
+    """The scheduler has gone, and all that it knew."""
+
+
+def _outcome(company: _Company, future: Future[Any]) -> Any:
+    """Return the result of a task that has ended, or the KilledWorker that ended it.
+
+    A worker that is lost while its result comes home leaves the task to be done once more.
+    """
+    from distributed import KilledWorker
+
+    while future.status != "cancelled":
+        if future.status == "error":
+            error = future.exception()
+            if isinstance(error, KilledWorker):
+                return error
+            raise error if isinstance(error, FdspecError) else ClusterError(_told(error)) from error
+        try:
+            return future.result(timeout=SILENCE)
+        except TimeoutError:
+            company.look_after_silence()
+        except Exception as error:
+            if future.status == "error":
+                continue
+            if isinstance(error, (OSError, CancelledError)):
+                break
+            raise
+    raise _SchedulerLostError
+
+
+class _Company:
+    """Whether there are workers to wait for."""
+
+    def __init__(self, client: Client) -> None:
+        self._client = client
+        self.heard_of()
+
+    def heard_of(self) -> None:
+        """Start anew: something came back."""
+        self._heard, self._alone_since = time.monotonic(), math.inf
+
+    def look_after_silence(self) -> None:
+        """Count the workers after every SILENCE; an error when for PATIENCE there has been none."""
+        now = time.monotonic()
+        if now - self._heard < SILENCE:
+            return
+        self._heard = now
+        if self._client.status != "running" or _workers(self._client):
+            self._alone_since = math.inf
+            return
+        self._alone_since = min(self._alone_since, now)
+        if now - self._alone_since > PATIENCE:
             raise ClusterError(f"the cluster has had no workers for {PATIENCE:.0f} s; start some")
 
 

@@ -10,7 +10,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -303,6 +303,28 @@ def test_a_cluster_whose_workers_are_gone_for_good_is_told(
             pytest.raises(ClusterError, match="the cluster has had no workers for 5 s"),
         ):
             fdspec.sweep(motions, **AXES, client=client, store=store, columns_per_task=1)
+
+
+def test_workers_lost_between_the_word_of_a_result_and_the_result_are_told(
+    tmp_path: Path, motions: list[fdspec.GroundMotion], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from distributed import Future
+
+    monkeypatch.setattr(cluster, "PATIENCE", 2.0)
+    monkeypatch.setattr(cluster, "SILENCE", 0.5)
+    fetched = Future.result
+    with network(tmp_path) as made, cluster.connected(made.address) as client:
+
+        def too_late(future: Future, timeout: float | None = None) -> object:
+            if future.key.startswith("_run"):
+                for worker in made.workers:
+                    with suppress(ProcessLookupError):
+                        os.killpg(worker.pid, signal.SIGKILL)
+            return fetched(future, timeout)
+
+        monkeypatch.setattr(Future, "result", too_late)
+        with pytest.raises(ClusterError, match="the cluster has had no workers for 2 s"):
+            fdspec.sweep(motions, **AXES, client=client)
 
 
 @pytest.mark.slow

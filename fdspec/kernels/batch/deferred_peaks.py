@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fdspec.compiler.options import inner
+from fdspec.compiler.options import inner, seldom
 from fdspec.kernels.batch.layout import (
     CREST_B,
     CREST_Q,
@@ -140,6 +140,7 @@ def settle_crests(p, lane, plan, crests, floor, search):
 @inner
 def settle_brace(p, lane, plan, braces, room, search):
     """Search the step kept for the brace force, if it still matters."""
+    seldom()
     kept = braces[lane]
     if kept[BOUND] <= at(p, PEAK_BRACE, lane):
         return

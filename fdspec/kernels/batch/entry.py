@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 from numba import types
 
-from fdspec.compiler.options import entry, float1d, float2d, ground1d, int1d
+from fdspec.compiler.options import entry, float1d, float2d, ground1d, int1d, lowest
 from fdspec.kernels.batch.deferred_peaks import (
     N_BRACE,
     N_CREST,
@@ -102,6 +102,7 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, free_steps, at_r
     floor, brace, search = np.empty(TERMS), np.empty(TERMS), np.empty(TERMS)
     times, phases, traces = np.empty(0), np.empty(0, np.int64), np.empty((0, 0))
     slipping = 0
+    real = (1 << count) - 1
     for lane in range(WIDTH):
         i = min(lane, count - 1)
         put_lane(p, lane, take_plan(shelf, i), shelf[i], forms[i], stride[i], certify)
@@ -129,13 +130,14 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, free_steps, at_r
                 to_keep |= keeps
             if certify:
                 loss_lanes(p, start, rate, to_walk)
-            if to_walk | to_keep == 0:
-                continue
-            for lane in range(count):
+            busy = (to_walk | to_keep) & real
+            while busy != 0:
+                lane = lowest(busy)
+                busy &= busy - 1
                 if to_keep >> lane & 1:
                     keep_crests(p, lane, take_plan(shelf, lane), crests, start, rate, floor, search)
                     keep_brace(p, lane, take_plan(shelf, lane), braces, start, rate, floor, search)
-                elif to_walk >> lane & 1:
+                else:
                     take_state(p, lane, s)
                     if certify:
                         for k in range(N_FORMS):

@@ -11,9 +11,9 @@ import numpy as np
 from numba import types
 
 from fdspec.compiler.options import entry, float1d, float2d, ground1d, inner, int1d
-from fdspec.kernels.bilinear.entry import parts_of
+from fdspec.kernels.bilinear.entry import fastest, parts_of
 from fdspec.kernels.bilinear.history import RESULTS, history
-from fdspec.kernels.bilinear.mode import MODE_SIZE, TERMS, fill_mode
+from fdspec.kernels.bilinear.mode import MODE_SIZE, TERMS, fill_mode, terms_for
 
 PER_OCTAVE = 24
 """Strengths of the scan in each octave."""
@@ -37,7 +37,7 @@ DIP_STEPS = 24
 @inner
 def peak(problem, ground, elastic, hardening, series, room, out, strength):
     """Peak displacement times stiffness, m/s2; infinite where the oscillator collapses."""
-    dt, parts, c, k, alpha, collapse = problem
+    dt, parts, n, c, k, alpha, collapse = problem
     history(
         ground,
         dt,
@@ -51,6 +51,7 @@ def peak(problem, ground, elastic, hardening, series, room, out, strength):
         True,
         elastic,
         hardening,
+        n,
         series,
         room,
         out,
@@ -138,6 +139,7 @@ def strengths_for(ground, dt, c, k, alpha, collapse, targets, roots, counts):
     are counted and not kept.  Returns the elastic strength; it is 0 where the ground is at rest.
     """
     parts = parts_of(dt, c, k, alpha)
+    n = terms_for(fastest(c, k, alpha) * dt / parts)
     series = np.zeros(TERMS)
     room = np.zeros(TERMS)
     units = np.zeros((4, TERMS))
@@ -146,8 +148,8 @@ def strengths_for(ground, dt, c, k, alpha, collapse, targets, roots, counts):
     hardening = np.zeros(MODE_SIZE)
     fill_mode(c, k, dt / parts, units, elastic)
     fill_mode(c, alpha * k, dt / parts, units, hardening)
-    problem = (dt, parts, c, k, alpha, collapse)
-    strong = peak((dt, parts, c, k, alpha, np.inf), ground, elastic, hardening, series, room, out, 1e300)
+    problem = (dt, parts, n, c, k, alpha, collapse)
+    strong = peak((dt, parts, n, c, k, alpha, np.inf), ground, elastic, hardening, series, room, out, 1e300)
     counts[:] = 0
     if strong == 0.0:
         return 0.0

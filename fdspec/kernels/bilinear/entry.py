@@ -9,15 +9,20 @@ from numba import types
 
 from fdspec.compiler.options import entry, float1d, float2d, ground1d, inner
 from fdspec.kernels.bilinear.history import history
-from fdspec.kernels.bilinear.mode import MODE_SIZE, RADIANS, TERMS, fill_mode, rate_of
+from fdspec.kernels.bilinear.mode import MODE_SIZE, RADIANS, TERMS, fill_mode, rate_of, terms_for
 from fdspec.kernels.bilinear.rigid import slide
+
+
+@inner
+def fastest(c, k, alpha):
+    """Rate of the faster of the two modes, 1/s."""
+    return max(rate_of(c, k), rate_of(c, alpha * k))
 
 
 @inner
 def parts_of(dt, c, k, alpha):
     """Steps a sample: each at most RADIANS of the faster of the two modes."""
-    rate = max(rate_of(c, k), rate_of(c, alpha * k))
-    return max(1, int(math.ceil(dt * rate / RADIANS - 1e-9)))
+    return max(1, int(math.ceil(dt * fastest(c, k, alpha) / RADIANS - 1e-9)))
 
 
 @entry(
@@ -43,6 +48,7 @@ def bilinear_histories(ground, dt, c, k, alpha, strength, collapse, certify, res
     the steps; no result depends on it.  out (m, len(RESULTS)).
     """
     parts = parts_of(dt, c, k, alpha) << halvings
+    n = terms_for(fastest(c, k, alpha) * dt / parts)
     series = np.zeros(TERMS)
     room = np.zeros(TERMS)
     units = np.zeros((4, TERMS))
@@ -64,6 +70,7 @@ def bilinear_histories(ground, dt, c, k, alpha, strength, collapse, certify, res
             rest,
             elastic,
             hardening,
+            n,
             series,
             room,
             out[i],

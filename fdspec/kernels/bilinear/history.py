@@ -16,19 +16,18 @@ import math
 from fdspec.compiler.options import inner
 from fdspec.kernels.bilinear.mode import (
     INTEGRAL_ROW,
-    TERMS,
     U_ROW,
     V_ROW,
     expand,
-    integral_to,
     reach,
     row_times,
     slope_at,
-    square_of_slope,
     squared_velocity,
     sum_at,
 )
 from fdspec.kernels.mathematics.polynomial_roots import NO_ROOT, first_root, largest_magnitude
+from fdspec.kernels.mathematics.quadrature import series_area, series_square
+from fdspec.kernels.storey.bounds import crest
 
 RESULTS = (
     "peak_displacement",
@@ -64,30 +63,30 @@ ELASTIC = 0
 
 
 @inner
-def guard_root(mode, alike, series, p, limit, touching, c):
+def guard_root(mode, alike, series, n, p, limit, touching, c):
     """Fraction of the expanded step at which the mode ends, and the mode that follows.
 
     touching: the direction in which the spring stands at its limit, whose distance then begins at zero;
     alike: changes made at this instant; c (TERMS,): room.
     """
     if mode != ELASTIC:
-        for j in range(TERMS - 1):
+        for j in range(n - 1):
             c[j] = (j + 1) * series[j + 1]
         if alike > EVENTS_AT_ONE_INSTANT:
             c[0] = 0.0
             c[1] = 0.0
-        return first_root(c, 0, TERMS - 2, float(mode)), ELASTIC
+        return first_root(c, 0, n - 2, float(mode)), ELASTIC
     first = NO_ROOT
     toward = ELASTIC
     for sign in (1, -1):
         room = limit - sign * (series[0] - p)
-        for j in range(1, TERMS):
+        for j in range(1, n):
             c[j] = -sign * series[j]
         c[0] = 0.0 if sign == touching or room < 0.0 else room
         if alike > EVENTS_AT_ONE_INSTANT and sign == touching:
             c[1] = 0.0
             c[2] = 0.0
-        x = first_root(c, 0, TERMS - 1, 1.0)
+        x = first_root(c, 0, n - 1, 1.0)
         if x < first:
             first = x
             toward = sign
@@ -95,31 +94,60 @@ def guard_root(mode, alike, series, p, limit, touching, c):
 
 
 @inner
-def raise_peaks(c, k, b, h, series, done, coefficients, displacement, acceleration):
+def raise_peaks(c, k, b, h, series, n, done, coefficients, displacement, acceleration):
     """Peaks of |u| and |u'' + a| over the first ``done`` of an expanded step; coefficients: room."""
     power = 1.0
-    for j in range(TERMS):
+    for j in range(n):
         coefficients[j] = series[j] * power
         power *= done
-    displacement = largest_magnitude(coefficients, TERMS - 1, displacement)
+    displacement = largest_magnitude(coefficients, n - 1, displacement)
     power = 1.0
-    for j in range(TERMS):
-        rise = (j + 1) * series[j + 1] / h if j + 1 < TERMS else 0.0
+    for j in range(n):
+        rise = (j + 1) * series[j + 1] / h if j + 1 < n else 0.0
         coefficients[j] = -(c * rise + k * series[j]) * power
         power *= done
     coefficients[0] += b
-    acceleration = largest_magnitude(coefficients, TERMS - 2, acceleration)
+    acceleration = largest_magnitude(coefficients, n - 2, acceleration)
     return displacement, acceleration
 
 
 @inner
+def may_turn(c, k, h, u, v, w, y, u1, v1, w1, y1, third, fourth, displacement, acceleration):
+    """Whether |u| or |u'' + a| = |y| may pass its peak between the ends of a step.
+
+    v, w: u' and u''; third, fourth: bounds on the derivatives of u.
+    """
+    power = h * h * h * h
+    if crest(u, h * v, u1, h * v1, power * fourth) > displacement:
+        return True
+    fifth = c * fourth + abs(k) * third
+    rise, rise1 = -h * (c * w + k * v), -h * (c * w1 + k * v1)
+    return crest(y, rise, y1, rise1, power * (c * fifth + abs(k) * fourth)) > acceleration
+
+
+@inner
 def history(
-    ground, dt, parts, c, k, alpha, strength, collapse, certify, rest, elastic, hardening, series, room, out
+    ground,
+    dt,
+    parts,
+    c,
+    k,
+    alpha,
+    strength,
+    collapse,
+    certify,
+    rest,
+    elastic,
+    hardening,
+    n,
+    series,
+    room,
+    out,
 ):
     """Integrate one history; strength: f_y per unit mass, m/s2; collapse: |u| at which it is called, m.
 
-    elastic, hardening: constants of whole steps, dt/parts long; rest: go on after the record until
-    nothing can yield and no larger displacement can come; series, room (TERMS,): room.
+    elastic, hardening: constants of whole steps, dt/parts long; n: coefficients of their series.  rest: go on
+    after the record until nothing can yield and no larger displacement can come.  series, room: (TERMS,).
     """
     h = dt / parts
     limit = strength / k
@@ -142,14 +170,17 @@ def history(
     steps = (ground.size - 1) * parts
     most = steps + (int(math.ceil(FREE_PERIODS * 2.0 * math.pi / (math.sqrt(k) * h))) if rest else 0)
     quiet = 0
+    sample = 0
+    part = 0
     step = 0
     while step < most:
         if step < steps:
-            sample = step // parts
-            part = step - sample * parts
-            a0 = ground[sample]
-            rise = (ground[sample + 1] - a0) / parts
-            a0 += rise * part
+            rise = (ground[sample + 1] - ground[sample]) / parts
+            a0 = ground[sample] + rise * part
+            part += 1
+            if part == parts:
+                sample += 1
+                part = 0
         else:
             a0 = 0.0
             rise = 0.0
@@ -181,12 +212,17 @@ def history(
         if clear:
             y0 = w0 + a0
             y1 = w1 + a0 + rise
-            tops = max(abs(u), abs(u1)) + bow > displacement
-            tops = tops or (max(abs(y0), abs(y1)) + eighth * (c * third + abs(stiff) * second) > acceleration)
-            if tops:
-                expand(c, stiff, h, u, v, e0, rise, series)
+            displacement = max(displacement, abs(u1))
+            acceleration = max(acceleration, abs(y1))
+            fourth = c * third + abs(stiff) * second
+            near = max(abs(u), abs(u1)) + bow > displacement
+            near = near or max(abs(y0), abs(y1)) + eighth * fourth > acceleration
+            if near and may_turn(
+                c, stiff, h, u, v, w0, y0, u1, v1, w1, y1, third, fourth, displacement, acceleration
+            ):
+                expand(c, stiff, h, u, v, e0, rise, series, n)
                 displacement, acceleration = raise_peaks(
-                    c, stiff, b, h, series, 1.0, room, displacement, acceleration
+                    c, stiff, b, h, series, n, 1.0, room, displacement, acceleration
                 )
             if certify:
                 area = row_times(constants, INTEGRAL_ROW, u, v, e0, e1)
@@ -205,18 +241,18 @@ def history(
                 stiff = k if mode == ELASTIC else soft
                 b = (1.0 - alpha) * k * p if mode == ELASTIC else -mode * force
                 start = a0 + rise * x
-                expand(c, stiff, h * left, u, v, start - b, rise * left, series)
-                root, after = guard_root(mode, alike, series, p, limit, touching, room)
+                expand(c, stiff, h * left, u, v, start - b, rise * left, series, n)
+                root, after = guard_root(mode, alike, series, n, p, limit, touching, room)
                 done = min(root, 1.0)
-                u1 = sum_at(series, done)
-                v1 = slope_at(series, done) / (h * left)
+                u1 = sum_at(series, n, done)
+                v1 = slope_at(series, n, done) / (h * left)
                 displacement, acceleration = raise_peaks(
-                    c, stiff, b, h * left, series, done, room, displacement, acceleration
+                    c, stiff, b, h * left, series, n, done, room, displacement, acceleration
                 )
                 if certify and done > 0.0:
-                    area = h * left * integral_to(series, done)
+                    area = series_area(series, n - 1, h * left, done)
                     work += start * u - (start + rise * left * done) * u1 + rise / h * area
-                    viscous += c * square_of_slope(series, series, done) / (h * left)
+                    viscous += c * series_square(series, n - 1, h * left, done)
                 if mode != ELASTIC:
                     travel += mode * (u1 - u)
                     p = u1 - mode * limit
@@ -234,8 +270,9 @@ def history(
                 x += done * left
                 if 1.0 - x < SAME_PLACE:
                     break
-        stored = 0.5 * (v * v + alpha * k * u * u + (1.0 - alpha) * k * (u - p) * (u - p))
-        scale = max(scale, abs(work), stored)
+        if certify:
+            stored = 0.5 * (v * v + alpha * k * u * u + (1.0 - alpha) * k * (u - p) * (u - p))
+            scale = max(scale, abs(work), stored)
         if abs(u) >= collapse:
             status = COLLAPSED
             break

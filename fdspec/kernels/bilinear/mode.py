@@ -14,12 +14,16 @@ from __future__ import annotations
 import math
 
 from fdspec.compiler.options import inner
+from fdspec.kernels.mathematics.oscillator import series_order
 
 RADIANS = 1.0
 """Longest step in radians of the fastest rate: 20 terms then end below rounding."""
 
 TERMS = 22
-"""Coefficients of a series of u."""
+"""Coefficients of a series of u, at the most."""
+
+BEYOND_ORDER = 4
+"""Coefficients beyond the order of free motion: one, for they count from 0; the ground's begin later."""
 
 U_ROW = 0
 V_ROW = 4
@@ -38,54 +42,60 @@ def rate_of(c, k):
 
 
 @inner
-def expand(c, k, h, u, v, a0, rise, series):
-    """Fill series[j] with the coefficients of u over x = t/h; a = a0 + rise x, less b, m/s2."""
+def terms_for(theta):
+    """Coefficients that a step of this phase (rad) needs to be complete to rounding."""
+    return min(TERMS, series_order(theta) + BEYOND_ORDER)
+
+
+@inner
+def expand(c, k, h, u, v, a0, rise, series, n):
+    """Fill series[j], j < n, with the coefficients of u over x = t/h; a = a0 + rise x, less b, m/s2."""
     series[0] = u
     series[1] = v * h
     square = h * h
     series[2] = -0.5 * (square * (a0 + k * u) + c * h * series[1])
     series[3] = -(square * (rise + k * series[1]) + 2.0 * c * h * series[2]) / 6.0
-    for j in range(2, TERMS - 2):
+    for j in range(2, n - 2):
         series[j + 2] = -(c * h * (j + 1) * series[j + 1] + k * square * series[j]) / ((j + 1) * (j + 2))
 
 
 @inner
-def sum_at(series, x):
+def sum_at(series, n, x):
     """Value of the series at x."""
     total = 0.0
-    for j in range(TERMS - 1, -1, -1):
+    for j in range(n - 1, -1, -1):
         total = total * x + series[j]
     return total
 
 
 @inner
-def slope_at(series, x):
+def slope_at(series, n, x):
     """Derivative of the series by x."""
     total = 0.0
-    for j in range(TERMS - 1, 0, -1):
+    for j in range(n - 1, 0, -1):
         total = total * x + j * series[j]
     return total
 
 
 @inner
-def integral_to(series, x):
+def integral_to(series, n, x):
     """Integral of the series from 0 to x."""
     total = 0.0
-    for j in range(TERMS - 1, -1, -1):
+    for j in range(n - 1, -1, -1):
         total = total * x + series[j] / (j + 1)
     return total * x
 
 
 @inner
-def square_of_slope(one, other, x):
+def square_of_slope(one, other, n, x):
     """Integral from 0 to x of the product of the slopes of two series."""
     total = 0.0
     power = x
-    for n in range(2 * TERMS - 3):
+    for order in range(2 * n - 3):
         term = 0.0
-        for j in range(max(0, n - TERMS + 2), min(n, TERMS - 2) + 1):
-            term += (j + 1) * one[j + 1] * (n - j + 1) * other[n - j + 1]
-        total += term * power / (n + 1)
+        for j in range(max(0, order - n + 2), min(order, n - 2) + 1):
+            term += (j + 1) * one[j + 1] * (order - j + 1) * other[order - j + 1]
+        total += term * power / (order + 1)
         power *= x
     return total
 
@@ -93,18 +103,18 @@ def square_of_slope(one, other, x):
 @inner
 def fill_mode(c, k, h, units, mode):
     """Fill the constants of whole steps of length h; units (4, TERMS): room for the unit states' series."""
-    expand(c, k, h, 1.0, 0.0, 0.0, 0.0, units[0])
-    expand(c, k, h, 0.0, 1.0, 0.0, 0.0, units[1])
-    expand(c, k, h, 0.0, 0.0, 1.0, -1.0, units[2])
-    expand(c, k, h, 0.0, 0.0, 0.0, 1.0, units[3])
+    expand(c, k, h, 1.0, 0.0, 0.0, 0.0, units[0], TERMS)
+    expand(c, k, h, 0.0, 1.0, 0.0, 0.0, units[1], TERMS)
+    expand(c, k, h, 0.0, 0.0, 1.0, -1.0, units[2], TERMS)
+    expand(c, k, h, 0.0, 0.0, 0.0, 1.0, units[3], TERMS)
     at = SQUARE_ROW
     for i in range(4):
-        mode[U_ROW + i] = sum_at(units[i], 1.0)
-        mode[V_ROW + i] = slope_at(units[i], 1.0) / h
-        mode[INTEGRAL_ROW + i] = h * integral_to(units[i], 1.0)
+        mode[U_ROW + i] = sum_at(units[i], TERMS, 1.0)
+        mode[V_ROW + i] = slope_at(units[i], TERMS, 1.0) / h
+        mode[INTEGRAL_ROW + i] = h * integral_to(units[i], TERMS, 1.0)
         for j in range(i, 4):
             weight = 1.0 if i == j else 2.0
-            mode[at] = weight * square_of_slope(units[i], units[j], 1.0) / h
+            mode[at] = weight * square_of_slope(units[i], units[j], TERMS, 1.0) / h
             at += 1
     # Bounds on |u''| and |u'''| of a step by its two ends, see `reach`.
     sixth = h * h / 8.0

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 
-from fdspec.compiler.options import fma, inlined, inner
+from fdspec.compiler.options import fma, inlined, inner, seldom
 from fdspec.kernels.friction import sliding_force
 from fdspec.kernels.mathematics.extremum import Weights, top_inside
 from fdspec.kernels.mathematics.oscillator import advance, expand
@@ -47,7 +47,7 @@ def force_series(kd, cd, c, n, share, h, out):
     out[n] = kd * c[n] * power
 
 
-@inner
+@inlined
 def stick_brace_peak(plan, floor, search, n, share, start, end, force, offset, h, best):
     """The greater of ``best`` and the largest brace force after the start of a piece of stick.
 
@@ -66,6 +66,15 @@ def stick_brace_peak(plan, floor, search, n, share, start, end, force, offset, h
     inside = crest(first, h * fma(kd, start.v, cd * a0), last, h * fma(kd, end.v, cd * a1), fourth)
     if inside <= best:
         return best
+    return search_stick_brace(plan, floor, search, n, share, start, end, force, offset, h, fourth, best)
+
+
+@inner
+def search_stick_brace(plan, floor, search, n, share, start, end, force, offset, h, fourth, best):
+    """The same where bounds leave room for a peak inside."""
+    seldom()
+    b = plan.stick
+    kd, cd = plan.storey.brace_stiffness, plan.storey.brace_damping
     if share == 0.0:
         w = Weights(kd, cd, 0.0, -kd * offset)
         best, sure = top_inside(b, b, n, False, w, start, end, force, h, fourth, best)
@@ -78,7 +87,24 @@ def stick_brace_peak(plan, floor, search, n, share, start, end, force, offset, h
     return largest_magnitude(search, n, best)
 
 
-@inner
+@inlined
+def slip_brace_bound(plan, start, b0, b1, h):
+    """What the brace force does not pass within a time h of slip, however it rings."""
+    storey = plan.storey
+    if storey.brace_mass == 0.0:
+        return storey.kinetic_slip_force
+    b = plan.brace
+    if b.w2 == 0.0:
+        return math.inf
+    ring_v = start.e - b1 * b.drift
+    ring_a = relative_acceleration(b, start.d, start.e, b0) * b.slowness
+    ring = math.sqrt(fma(ring_v, ring_v, ring_a * ring_a))
+    steady = max(abs(b0), abs(fma(b1, h, b0)))
+    impedance = storey.brace_stiffness * b.slowness  # m_d omega_d
+    return fma(storey.brace_mass, steady, impedance * ring)
+
+
+@inlined
 def slip_brace_peak(plan, brace, search, n, share, start, end, force, h, best):
     """The greater of ``best`` and the largest brace force after the start of a piece of slip.
 
@@ -90,22 +116,23 @@ def slip_brace_peak(plan, brace, search, n, share, start, end, force, h, best):
     b = plan.brace
     kd, cd = storey.brace_stiffness, storey.brace_damping
     a0 = relative_acceleration(b, start.d, start.e, force.b0)
-    last = brace_force(storey, end)
-    best = max(best, abs(last))
-    if b.w2 > 0.0:
-        ring_v = start.e - force.b1 * b.drift
-        ring_a = a0 * b.slowness
-        ring = math.sqrt(fma(ring_v, ring_v, ring_a * ring_a))
-        steady = max(abs(force.b0), abs(fma(force.b1, h, force.b0)))
-        if storey.brace_mass * steady + kd * b.slowness * ring <= best:  # m_d omega_d = k_d / omega_d
-            return best
     a1 = relative_acceleration(b, end.d, end.e, fma(force.b1, h, force.b0))
+    first, last = brace_force(storey, start), brace_force(storey, end)
     fourth_d, fourth_e = brace_fourths(plan, start, a0, force, h)
     fourth = fma(kd, fourth_d, cd * fourth_e)
-    first = brace_force(storey, start)
+    best = max(best, abs(last))
     inside = crest(first, h * fma(kd, start.e, cd * a0), last, h * fma(kd, end.e, cd * a1), fourth)
     if inside <= best:
         return best
+    return search_slip_brace(plan, brace, search, n, share, start, end, force, h, fourth, best)
+
+
+@inner
+def search_slip_brace(plan, brace, search, n, share, start, end, force, h, fourth, best):
+    """The same where bounds leave room for a peak inside."""
+    seldom()
+    b = plan.brace
+    kd, cd = plan.storey.brace_stiffness, plan.storey.brace_damping
     if share == 0.0:
         if is_swift(plan):
             w = Weights(0.0, 0.0, kd, 0.0)

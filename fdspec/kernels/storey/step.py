@@ -17,7 +17,12 @@ from fdspec.kernels.mathematics.oscillator import expand
 from fdspec.kernels.mathematics.polynomial_roots import value_slope
 from fdspec.kernels.mathematics.zero_crossing import CROSSES, UNCLEAR
 from fdspec.kernels.storey.bounds import forcing, ground_at
-from fdspec.kernels.storey.demands import brace_force, slip_brace_peak, stick_brace_peak
+from fdspec.kernels.storey.demands import (
+    brace_force,
+    slip_brace_bound,
+    slip_brace_peak,
+    stick_brace_peak,
+)
 from fdspec.kernels.storey.energy import (
     input_work,
     series_work,
@@ -229,6 +234,7 @@ def walk(
     part = 0  # index of the piece within the step, on the grid of the phase
     whole = True  # whether the piece begins on that grid
     at_one_instant = 0
+    rings_below = False  # whether the brace force stays below its peak while this slip lasts
     while tau < plan.step:
         pieces = 1 if phase == STICK else int(plan.slip_steps)
         order = int(plan.stick_order) if phase == STICK else int(plan.slip_order)
@@ -306,7 +312,7 @@ def walk(
 
         if h > 0.0:
             calm = calm and not happens
-            brace_calm = brace_calm and not happens
+            brace_calm = rings_below or (brace_calm and not happens)
             if phase == STICK and not brace_calm:  # before the others, which shorten the series
                 strongest = stick_brace_peak(
                     plan, floor, search, order, share, motion, end, force, offset, h, strongest
@@ -382,6 +388,11 @@ def walk(
         if part + 1 < pieces and (part + 1) * plan.slip_step <= tau:
             part += 1
         whole = False
+        rings_below = False
+        if phase != STICK:
+            force = forcing(plan, phase, offset, ground_at(a0, rate, tau), rate)
+            rings_below = slip_brace_bound(plan, motion, force.b0, force.b1, plan.step - tau) <= strongest
+        brace_calm = False
 
     if calm:
         # Bounds on what lies inside a step leave out its end, which the next step's would tell of.
