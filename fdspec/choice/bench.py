@@ -33,11 +33,13 @@ RESPONSES: Final = (
     "dissipated_energy",
     "input_energy",
     "status",
+    "peak_slip",
+    "peak_drift_ratio",
     "strain_energy_area",
     "peak_strain_energy",
 )
 """What a history gives.  Of many storeys it is the largest: displacements and residuals are then those
-relative to the floor below."""
+relative to the floor below.  The drift ratio is NaN where no height is known."""
 
 BARE: Final = {
     "elastic_acceleration": "peak_acceleration",
@@ -49,6 +51,9 @@ BARE: Final = {
 """What an index calls a response of the frame without braces -> that response."""
 
 STRAIN: Final = ("strain_energy_area", "peak_strain_energy")
+
+ALONE: Final = "peak_slip"
+"""What histories of many storeys side by side leave out: each is integrated by itself where it is needed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +70,8 @@ class Bench:
     statistic: str = "mean"
     workers: int | None = None
     """Threads; one a core unless given, and 0 stays in the caller's."""
+    also: tuple[str, ...] = ()
+    """Responses that cost time of their own, wanted beside what the index takes."""
 
     def __post_init__(self) -> None:
         if not isinstance(self.building, Building):
@@ -157,6 +164,11 @@ class Bench:
         return _reach(self.building, peak["peak_acceleration"], peak["peak_drift"], velocity)
 
     @property
+    def needs(self) -> tuple[str, ...]:
+        """Names of the responses that have to be there."""
+        return (*needs_of(self.index), *self.also)
+
+    @property
     def storeys(self) -> int:
         """Number of storeys N."""
         return self.building.n_storeys
@@ -164,11 +176,12 @@ class Bench:
     def respond(self, slip_force: FloatArray) -> dict[str, FloatArray]:
         """Run the building with each row of slip forces (c, N) under every record: response -> (c, r).
 
-        Strain and input energies cost time, and are NaN unless the index takes them.
+        Strain and input energies cost time, and are NaN unless the index takes them; so is the slip of many
+        storeys unless `also` names it.
         """
         forces = np.where(self.braced_storeys, np.asarray(slip_force, dtype=np.float64), 0.0)
         kinetic = np.where(np.isfinite(forces), forces * self.kinetic_ratio, np.inf)
-        return _run(self.building, forces, kinetic, self.motions, needs_of(self.index), self.workers)
+        return _run(self.building, forces, kinetic, self.motions, self.needs, self.workers)
 
     def index_of(self, responses: Mapping[str, FloatArray]) -> FloatArray:
         """The index of responses (c, r); inf where a history did not end well."""
@@ -189,7 +202,7 @@ class Bench:
     def _limit(self, building: Building) -> dict[str, FloatArray]:
         # One storey without a brace never slips; in a frame it is no storey that could.
         force = np.full((1, self.storeys), np.inf if self.storeys == 1 else 0.0)
-        found = _run(building, force, force, self.motions, needs_of(self.index), self.workers)
+        found = _run(building, force, force, self.motions, self.needs, self.workers)
         for motion, peak in zip(self.motions, found["peak_displacement"][0], strict=True):
             if not peak > 0.0:
                 raise InvalidInput(
@@ -245,9 +258,9 @@ def _run(
     if building.has_devices:
         work: Any = partial(_run_devices, building, slip_force, kinetic_slip_force)
     elif storeys == 1:
-        work = partial(_run_storey, np.array(building.storey[:6]), slip_force[:, 0], kinetic_slip_force[:, 0])
+        work = partial(_run_storey, building, slip_force[:, 0], kinetic_slip_force[:, 0])
     else:
-        work = partial(_run_frame, building.frame, slip_force, kinetic_slip_force)
+        work = partial(_run_frame, building, slip_force, kinetic_slip_force)
     times = count * (cost.STRAIN if set(STRAIN) & set(needs) else 1.0)
     seconds = [times * cost.seconds_of_history(building, motion.dt, motion.n) for motion in motions]
     tasks = plan(count, seconds, None, "candidates")
@@ -279,26 +292,26 @@ def _warm(building: Building, needs: Collection[str]) -> None:
 
         if building.has_devices:
             import fdspec.engines.devices
-        if not runs_beside_others(building.frame):
+        if ALONE in needs or not runs_beside_others(building.frame):
             import fdspec.engines.many_storeys
     if set(STRAIN) & set(needs):
         import fdspec.engines.strain  # noqa: F401
 
 
 def _run_storey(
-    frame: FloatArray,
+    building: Building,
     slip_force: FloatArray,
     kinetic_slip_force: FloatArray,
     needs: Collection[str],
     items: IntArray,
     motion: GroundMotion,
 ) -> FloatArray:
-    """Run one single-storey frame (6,) with some of the slip forces (c,): (len(RESPONSES), items)."""
+    """Run one single-storey frame with some of the slip forces (c,): (len(RESPONSES), items)."""
     from fdspec.engines.batch import integrate_columns
     from fdspec.kernels.storey.history import RESULTS
 
     force, kinetic = slip_force[items], kinetic_slip_force[items]
-    rows = frame[np.newaxis]
+    rows = np.array([building.storey[:6]])
     _, found = integrate_columns(rows, force, kinetic, motion, certify=False)
     table = np.full((len(RESPONSES), items.size), np.nan)
     for row, name in enumerate(RESPONSES):
@@ -307,6 +320,8 @@ def _run_storey(
     table[RESPONSES.index("residual_displacement")] = np.abs(
         found[0, :, RESULTS.index("residual_displacement")]
     )
+    drift = table[RESPONSES.index("peak_displacement")]
+    table[RESPONSES.index("peak_drift_ratio")] = drift / building.storey_height[0]
     if set(STRAIN) & set(needs):
         from fdspec.engines.strain import strain_of_columns
 
@@ -314,8 +329,10 @@ def _run_storey(
     return table
 
 
-def _largest(row: Mapping[str, FloatArray], total: Mapping[str, float]) -> dict[str, float]:
-    """Responses of a frame from those of its storeys (N,) and of the whole."""
+def _largest(
+    building: Building, row: Mapping[str, FloatArray], total: Mapping[str, float]
+) -> dict[str, float]:
+    """Responses of a building from those of its storeys (N,) and of the whole."""
     residual = np.diff(row["residual_displacement"], prepend=0.0)
     return {
         "peak_acceleration": float(row["peak_acceleration"].max()),
@@ -324,6 +341,8 @@ def _largest(row: Mapping[str, FloatArray], total: Mapping[str, float]) -> dict[
         "peak_base_shear": float(row["peak_storey_shear"][0]),
         "residual_displacement": float(np.abs(residual).max()),
         "slip_travel": float(row["slip_travel"].max()),
+        "peak_slip": float(row["peak_slip"].max()),
+        "peak_drift_ratio": float((row["peak_drift"] / building.storey_height).max()),
         **{name: float(total[name]) for name in ("dissipated_energy", "input_energy", "status")},
     }
 
@@ -346,13 +365,13 @@ def _run_devices(
             slip_force=np.where(braced, slip_force[item], 0.0),
             kinetic_slip_force=np.where(braced, kinetic_slip_force[item], 0.0),
         )
-        found = _largest(*peaks_of(one, motion))
+        found = _largest(one, *peaks_of(one, motion))
         table[:, column] = [found.get(name, np.nan) for name in RESPONSES]
     return table
 
 
 def _run_frame(
-    frame: Frame,
+    building: Building,
     slip_force: FloatArray,
     kinetic_slip_force: FloatArray,
     needs: Collection[str],
@@ -360,18 +379,31 @@ def _run_frame(
     motion: GroundMotion,
 ) -> FloatArray:
     """Run a frame with some of the rows of slip forces (c, N): (len(RESPONSES), items)."""
-    from fdspec.engines.frames import peaks_of_frames
     from fdspec.kernels.frame.results import STOREY_RESULTS, TOTALS
 
-    frames = [_with(frame, slip_force[item], kinetic_slip_force[item]) for item in items]
-    by_storey, totals = peaks_of_frames(frames, motion, certify=False)
+    frames = [_with(building.frame, slip_force[item], kinetic_slip_force[item]) for item in items]
+    by_storey, totals = _peaks(frames, motion, one_by_one=ALONE in needs)
     table = np.full((len(RESPONSES), items.size), np.nan)
     for column, one in enumerate(frames):
         row = dict(zip(STOREY_RESULTS, by_storey[column], strict=True))
-        found = _largest(row, dict(zip(TOTALS, totals[column], strict=True)))
+        found = _largest(building, row, dict(zip(TOTALS, totals[column], strict=True)))
         if set(STRAIN) & set(needs):
             from fdspec.engines.strain import strain_of_frame
 
             found |= dict(zip(STRAIN, strain_of_frame(one, motion)[:2], strict=True))
         table[:, column] = [found.get(name, np.nan) for name in RESPONSES]
     return table
+
+
+def _peaks(
+    frames: Sequence[Frame], motion: GroundMotion, *, one_by_one: bool
+) -> tuple[FloatArray, FloatArray]:
+    """Peaks by storey and totals of frames; one by one they tell the slip too, and differ by rounding."""
+    if not one_by_one:
+        from fdspec.engines.frames import peaks_of_frames
+
+        return peaks_of_frames(frames, motion, certify=False)
+    from fdspec.engines.many_storeys import peaks_of
+
+    found = [peaks_of(frame, motion, certify=False) for frame in frames]
+    return np.stack([rows for rows, _ in found]), np.stack([totals for _, totals in found])

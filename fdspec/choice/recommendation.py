@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from fdspec.choice.bench import Bench
+from fdspec.choice.bench import Bench, without_braces
+from fdspec.choice.by_storey import demands_of
 from fdspec.choice.distribution import DISTRIBUTIONS, best_scale, optimise, shape_of
 from fdspec.choice.search import Scan
+from fdspec.choice.targets import Target, meet
 from fdspec.choice.variables import CHOICE
 from fdspec.errors import InvalidInput
 from fdspec.measures.indices import Weights, weights_of
 from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
 from fdspec.runs.cube import assemble
-from fdspec.runs.simulate import simulate
 from fdspec.scheduling.progress import Shown
 from fdspec.scheduling.progress import progress as progress_bar
 
@@ -55,6 +56,8 @@ def choose(
     friction_coefficient: float = 0.5,
     normal_force_factor: float = 1.0,
     stiffness_scale: Sequence[float] = STIFFNESS_SCALE,
+    limits: Mapping[str, float] | None = None,
+    levels: Sequence[float] = (1.0,),
     seed: int = 0,
     workers: int | None = None,
     progress: Shown = False,
@@ -83,6 +86,11 @@ def choose(
         Pretension = slip force / (friction_coefficient * normal_force_factor).
     stiffness_scale : sequence of float
         Factors on the stiffness of all braces whose best is compared.
+    limits : mapping of str to float, optional
+        Recommend the least slip force that meets these instead, see `fdspec.choice.targets.meet`; where none
+        does, that which comes closest.  Not with a free distribution.
+    levels : sequence of float
+        Factors on the motions at each of which the limits must be met.
     seed : int
         Of the search for a free distribution.
     workers : int, optional
@@ -95,7 +103,10 @@ def choose(
     xarray.Dataset
         The variables of `fdspec.choice.variables.CHOICE`: the recommendation and its band by storey; over
         (case, record) the responses of the bare and the braced frame, of the recommendation and of
-        friction at its bounds; every pretension tried and the index there; the same for other braces.
+        friction at its bounds, and of each storey (``storey_slip``, ``storey_drift``, ``storey_brace_force``
+        and others, under the motions times ``storey_level``, the largest level); every pretension tried and
+        the index there; the same for other braces.  With limits: ``limits_met``, ``used`` and
+        ``meeting_slip_force``; the band is then the lowest stretch that meets them, NaN where there is none.
         `fdspec.report` makes text and a page of it.
 
     Raises
@@ -141,10 +152,30 @@ def choose(
                 done(1)
     if not np.isfinite(found.least):
         raise InvalidInput("no history of this building ended well: there is nothing to recommend")
-    force = found.best * shape
-    responses, indices = _cases(bench, {"chosen": force, "lower": lower * force, "upper": upper * force})
-    bands = found.bands(band)
-    ends = _per_storey(bands[(bands[:, 0] <= found.best) & (found.best <= bands[:, 1])][0], shape)
+    target = None
+    force, stretch = found.best * shape, _stretch(found, band)
+    if limits:
+        target = meet(
+            building,
+            given,
+            limits,
+            levels=levels,
+            statistic=statistic,
+            distribution=distribution,
+            lower=lower,
+            upper=upper,
+            workers=workers,
+            progress=progress,
+        )
+        force, stretch = target.slip_force, target.stretch
+    cases = {"chosen": force, "lower": lower * force, "upper": upper * force}
+    responses, indices = _cases(bench, cases)
+    level = max(levels) if limits else 1.0
+    storeys = _by_storey(bench, cases, level)
+    trials, trial_indices = found.x, of_record
+    if target is not None:  # what is recommended was no trial of the search for the least index
+        trials, trial_indices = _with_cases(trials, of_record, cases, indices)
+    ends = _per_storey(stretch, shape)
     per_pretension = friction_coefficient * normal_force_factor
     own = indices[CASES.index("chosen")]
     least = np.minimum(of_record.min(axis=0), own)  # the choice may be better than every trial
@@ -154,25 +185,37 @@ def choose(
         "band_slip_force": ends,
         "band_pretension": ends / per_pretension,
         "brace_stiffness": building.brace_stiffness,
-        "brace_force": _brace_force(bench, upper * force),
+        "brace_force": storeys["storey_brace_force"][CASES.index("upper")].max(axis=0),
         "scaled_index": np.array([scans[scale].least for scale in scales]),
         "scaled_pretension": np.array([scans[scale].best * shape for scale in scales]) / per_pretension,
-        "trial_pretension": found.x[:, np.newaxis] * shape / per_pretension,
-        "trial_index": found.y,
-        "trial_index_of_record": of_record,
+        "trial_pretension": trials[:, np.newaxis] * shape / per_pretension,
+        "trial_index": bench.together(trial_indices),
+        "trial_index_of_record": trial_indices,
         "index": bench.together(indices),
         "index_of_record": indices,
         "regret": own / least - 1.0,
         **responses,
+        "storey_level": np.float64(level),
+        **storeys,
     }
+    axes: dict[str, Any] = {
+        "storey": np.arange(1, bench.storeys + 1),
+        "bound": ["start", "end"],
+        "case": list(CASES),
+        "stiffness_scale": np.array(scales),
+    }
+    asked: dict[str, object] = {}
+    if target is not None and limits:
+        variables |= _met(target, shape)
+        axes |= {
+            "level": sorted({one.level for one in target.demands}),
+            "limited": list(limits),
+            "stretch": np.arange(1, len(target.bands) + 1),
+        }
+        asked = {"limits": dict(limits), "levels": axes["level"]}
     return assemble(
         variables,
-        {
-            "storey": np.arange(1, bench.storeys + 1),
-            "bound": ["start", "end"],
-            "case": list(CASES),
-            "stiffness_scale": np.array(scales),
-        },
+        axes,
         CHOICE,
         bench.motions,
         title="Recommended pretension of a building with friction dampers",
@@ -188,6 +231,7 @@ def choose(
             "friction_coefficient": friction_coefficient,
             "normal_force_factor": normal_force_factor,
             "seed": seed,
+            **asked,
         },
         command="fdspec.choose",
     )
@@ -240,17 +284,44 @@ def _cases(bench: Bench, forces: dict[str, FloatArray]) -> tuple[dict[str, Float
     return {name: table[of] for name, of in RESPONSES.items()}, bench.index_of(table)
 
 
-def _brace_force(bench: Bench, force: FloatArray) -> FloatArray:
-    """Largest force (N,) in the braces under any record, of the continuous motion.
+def _by_storey(bench: Bench, forces: dict[str, FloatArray], level: float) -> dict[str, FloatArray]:
+    """Demands (cases, records, N) of every storey, the motions times a level.
 
     A light brace rings when friction changes its sign, and so carries more than the slip force.
     """
-    building = bench.with_slip_force(force)
-    largest = np.zeros(bench.storeys)
-    for motion in bench.motions:
-        history = simulate(building, motion, dt_out=motion.dt * (motion.n - 1))
-        largest = np.maximum(largest, history["peak_brace_force"].values)
-    return largest
+    never = np.full(bench.storeys, np.inf)
+    with_forces = [never, *(forces[case] for case in CASES[2:])]
+    designs = [without_braces(bench.building), *(bench.with_slip_force(force) for force in with_forces)]
+    shaken = bench if level == 1.0 else replace(bench, motions=[m.times(level) for m in bench.motions])
+    return demands_of(designs, shaken)
+
+
+def _with_cases(
+    trials: FloatArray, of_record: FloatArray, cases: dict[str, FloatArray], indices: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Trials (t,) and the records' indices there (t, records), with those of the cases among them."""
+    places = np.concatenate([trials, [force.max() for force in cases.values()]])
+    values = np.concatenate([of_record, [indices[CASES.index(case)] for case in cases]])
+    ascending, first = np.unique(places, return_index=True)
+    return ascending, values[first]
+
+
+def _stretch(found: Scan, band: float) -> FloatArray:
+    """First and last place (2,) of the stretch about the best that is nearly as good."""
+    bands = found.bands(band)
+    return np.asarray(bands[(bands[:, 0] <= found.best) & (found.best <= bands[:, 1])][0])
+
+
+def _met(target: Target, shape: FloatArray) -> dict[str, Any]:
+    """What a choice holds of its limits."""
+    levels = sorted({one.level for one in target.demands})
+    used = np.array([one.value / one.limit for one in target.demands]).reshape(len(levels), -1)
+    stretches = [_per_storey(stretch, shape) for stretch in target.bands]
+    return {
+        "used": used,
+        "limits_met": np.int64(target.met),
+        "meeting_slip_force": np.array(stretches).reshape(-1, 2, shape.size),
+    }
 
 
 def _per_storey(factor: FloatArray, shape: FloatArray) -> FloatArray:

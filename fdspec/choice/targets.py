@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,24 +15,37 @@ from fdspec.choice.distribution import shape_of
 from fdspec.errors import InvalidInput
 from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
+from fdspec.scheduling.progress import Shown
+from fdspec.scheduling.progress import progress as progress_bar
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 FloatArray = NDArray[np.float64]
 
 LIMITED: Final = {
     "acceleration": "peak_acceleration",
     "drift": "peak_displacement",
-    "drift_ratio": "peak_displacement",
+    "drift_ratio": "peak_drift_ratio",
     "base_shear": "peak_base_shear",
     "residual_drift": "residual_displacement",
+    "slip": "peak_slip",
     "slip_travel": "slip_travel",
 }
-"""What may be limited -> the response of `fdspec.choice.bench`; m/s2, m, 1, N, m, m."""
+"""What may be limited -> the response of `fdspec.choice.bench`; m/s2, m, 1, N, m, m, m."""
 
 POINTS: Final = 257
 """Slip forces tried, evenly spaced from 0 to where no damper slips."""
 
+SLIP_POINTS: Final = 65
+"""The same where the slip of several storeys is limited, whose histories do not run side by side."""
+
 FINEST: Final = 1e-4
 """Share of that range to which the ends of a band are located."""
+
+
+AT_ONCE: Final = 32
+"""Slip forces between two signs of progress."""
 
 
 class Demand(NamedTuple):
@@ -61,6 +75,25 @@ class Target(NamedTuple):
         """The demand that is largest against its limit."""
         return max(self.demands, key=lambda one: one.value / one.limit)
 
+    @property
+    def stretch(self) -> FloatArray:
+        """First and last slip force (2,) of the lowest stretch, N; NaN where there is none."""
+        return self.bands[0] if self.met else np.full(2, np.nan)
+
+
+def target_of(choice: xr.Dataset) -> Target:
+    """Return what a choice that was made to meet limits holds of them."""
+    limits: dict[str, float] = json.loads(choice.attrs["parameters"])["limits"]
+    force = choice["slip_force"].values
+    of_all = choice["meeting_slip_force"].transpose("stretch", "bound", "storey").values
+    told = tuple(
+        Demand(float(level), str(name), float(choice["used"][i, j]) * limits[str(name)], limits[str(name)])
+        for i, level in enumerate(choice["level"].values)
+        for j, name in enumerate(choice["limited"].values)
+    )
+    bands = of_all.max(axis=2) if of_all.size else np.empty((0, 2))
+    return Target(bool(choice["limits_met"]), bands, force, told)
+
 
 def meet(
     building: Building,
@@ -73,6 +106,7 @@ def meet(
     lower: float = 0.8,
     upper: float = 1.2,
     workers: int | None = None,
+    progress: Shown = False,
 ) -> Target:
     """Find the slip forces at which a building meets limits.
 
@@ -91,6 +125,10 @@ def meet(
         "uniform" or "shear"; see `fdspec.optimise`.
     lower, upper : float
         Factors on the slip force; the limits must be met at both and between, at 1.
+    workers : int, optional
+        Threads; one a core unless given.
+    progress : bool or callable
+        Show a bar on stderr where it is a terminal or a notebook's; or call this with (done, total).
 
     Returns
     -------
@@ -104,7 +142,8 @@ def meet(
     Notes
     -----
     A demand jumps from one slip force to the next where another peak becomes the largest, so that a stretch
-    narrower than a step of `POINTS` can be missed; one that is found does meet all limits at its ends.
+    narrower than a step of the scan, `POINTS` or `SLIP_POINTS`, can be missed; one that is found does meet
+    all limits at its ends.
     """
     if not limits:
         raise InvalidInput(f"limits must hold at least one of {', '.join(LIMITED)}")
@@ -126,7 +165,10 @@ def meet(
         "acceleration",
         statistic,
         workers,
+        also=("peak_slip",) if "slip" in limits else (),
     )
+    if "drift_ratio" in limits and np.isnan(bench.building.storey_height).any():
+        raise InvalidInput("a limit on drift_ratio needs storey_height")
     benches = {level: replace(bench, motions=[m.times(level) for m in bench.motions]) for level in factors}
     shape = shape_of(bench, distribution)
     top = max(float(np.max(one.never_slips[shape > 0.0] / shape[shape > 0.0])) for one in benches.values())
@@ -143,8 +185,15 @@ def meet(
                 found[i, j] = _of(one, name, responses).reshape(force.size, bounds.size).max(axis=1) / limit
         return found
 
-    force = np.linspace(0.0, top, POINTS)
-    shares = demands(force)
+    several = bench.storeys > 1 and not building.has_devices
+    force = np.linspace(0.0, top, SLIP_POINTS if several and "slip" in limits else POINTS)
+    parts = np.array_split(force, max(1, force.size // AT_ONCE))
+    with progress_bar(len(parts), "slip forces", shown=progress) as done:
+        found = []
+        for part in parts:
+            found.append(demands(part))
+            done(1)
+    shares = np.concatenate(found, axis=-1)
     worst = shares.max(axis=(0, 1))
     good = worst <= 1.0
     bands = _refined(force, good, lambda at: bool(demands(np.array([at])).max() <= 1.0), FINEST * top)
@@ -161,16 +210,7 @@ def meet(
 def _of(bench: Bench, name: str, responses: Mapping[str, FloatArray]) -> FloatArray:
     """The statistic of one demand over the records, (c,); inf where a history did not end well."""
     values = responses[LIMITED[name]]
-    if name == "drift_ratio":
-        values = values / _height(bench)
     return bench.together(np.where(responses["status"] == 0.0, values, np.inf))
-
-
-def _height(bench: Bench) -> float:
-    heights = bench.building.storey_height
-    if np.isnan(heights).any() or np.ptp(heights) > 0.0:
-        raise InvalidInput("a limit on drift_ratio needs storey_height, the same in all storeys")
-    return float(heights[0])
 
 
 def _refined(

@@ -79,6 +79,7 @@ OPTIMUM: Final[Registry] = registry_of(
 """The best distribution of slip forces over a building."""
 
 _CASE: Final = ("case", "record")
+_EACH_STOREY: Final = (*_CASE, "storey")
 
 CHOICE: Final[Registry] = registry_of(
     motion_variables(_RECORD),
@@ -115,6 +116,30 @@ CHOICE: Final[Registry] = registry_of(
         Variable("residual_drift", _CASE, "m", "largest final displacement relative to the floor below"),
         Variable("slip_travel", _CASE, "m", "largest total distance slipped in any damper"),
         Variable("dissipated_energy", _CASE, "J", "energy dissipated by friction in all dampers"),
+        Variable("storey_level", (), "1", "factor on the records under which demands of storeys are told"),
+        Variable("storey_acceleration", _EACH_STOREY, "m/s^2", "peak absolute acceleration of the floor"),
+        Variable("storey_drift", _EACH_STOREY, "m", "peak displacement relative to the floor below"),
+        Variable(
+            "storey_slip",
+            _EACH_STOREY,
+            "m",
+            "largest distance of the damper from where it was fastened: what a slot leaves to either side",
+        ),
+        Variable("storey_residual_slip", _EACH_STOREY, "m", "distance at which the damper was left"),
+        Variable("storey_brace_force", _EACH_STOREY, "N", "peak force in the brace"),
+    ),
+    (
+        Variable("level", ("level",), "1", "factor on the records at which limits hold"),
+        Variable("limited", ("limited",), "", "demand that has a limit", TEXT),
+        Variable("used", ("level", "limited"), "1", "demand over its limit, the largest over the bounds"),
+        Variable("limits_met", (), "1", "1 where all limits are met, 0 where no slip force does", "int64"),
+        Variable(
+            "meeting_slip_force",
+            ("stretch", "bound", "storey"),
+            "N",
+            "ends of every stretch of slip forces that meet all limits; inf where it has no end",
+        ),
+        Variable("stretch", ("stretch",), "1", "number of the stretch, from 1 upwards in force", "int64"),
     ),
 )
 """What `fdspec.choose` recommends, and why."""

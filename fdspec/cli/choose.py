@@ -96,8 +96,8 @@ PAGES = (".html", ".htm")
     multiple=True,
     metavar="NAME=X",
     help="Find the least slip force that meets this instead: acceleration=0.5g, drift=20mm, "
-    "drift_ratio=0.01, base_shear=300kN, residual_drift=2mm, slip_travel=1; repeat it. Exit code 1 where "
-    "none meets all.",
+    "drift_ratio=0.01, base_shear=300kN, residual_drift=2mm, slip=50mm, slip_travel=1; repeat it. Exit code "
+    "1 where none meets all.",
 )
 @click.option(
     "--level",
@@ -162,10 +162,8 @@ def choose(
     if html is None and (title or project or author):
         raise click.UsageError("--title, --project and --author are of the page; give --html.")
     cube_path = None if output is None else free(output, force=force)
-    if limits and (html or output or distribution == "free"):
-        raise click.UsageError(
-            "--limit prints its answer; it goes without --html, -o and --distribution free."
-        )
+    if limits and distribution == "free":
+        raise click.UsageError("--limit scales one distribution of slip forces: uniform or shear, not free.")
     if levels and not limits:
         raise click.UsageError("--level says where limits hold; give --limit.")
     wanted, factors = limits_of(limits), levels_of(levels)
@@ -201,7 +199,7 @@ def choose(
     )
     named = named_records(records or STUDY_RECORDS, units, dt, channel)
     motions = tuple(find_record(name, scaled=not raw) for name in named)
-    if wanted:
+    if wanted and not (html or output or as_json):
         from fdspec.choice.targets import meet
 
         target = meet(
@@ -214,6 +212,7 @@ def choose(
             lower=lower,
             upper=upper,
             workers=workers,
+            progress=True,
         )
         echo(told(target, friction_coefficient * normal_force_factor))
         if not target.met:
@@ -229,13 +228,18 @@ def choose(
         upper=upper,
         friction_coefficient=friction_coefficient,
         normal_force_factor=normal_force_factor,
+        limits=wanted,
+        levels=factors,
         seed=seed,
         workers=workers,
         progress=True,
     )
+    from fdspec.choice.targets import target_of
     from fdspec.cli.table import text_width
 
-    if not as_json:
+    if wanted and not as_json:
+        echo(told(target_of(choice), friction_coefficient * normal_force_factor))
+    elif not as_json:
         echo(text(choice, width=text_width()))
     files: list[str] = []
     if cube_path is not None:
@@ -255,6 +259,8 @@ def choose(
         echo_json({"files": files, **of_dataset(choice)})
     elif files:
         echo("\n".join(files))
+    if wanted and not target_of(choice).met:
+        click_context.exit(1)
 
 
 def _index(given: str) -> str | dict[str, float]:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Final
 import click
 
 from fdspec.cli.table import table
-from fdspec.printable import in_words
 from fdspec.units import G
 
 if TYPE_CHECKING:
@@ -54,30 +53,12 @@ def levels_of(given: Sequence[str]) -> list[float]:
 
 def told(target: Target, per_pretension: float) -> str:
     """Say what meets the limits, or which cannot be met and by how much."""
-    rows = [
-        [
-            f"{one.level:g}",
-            in_words(one.name),
-            f"{one.value:.4g}",
-            f"{one.limit:.4g}",
-            f"{one.value / one.limit:.0%}",
-        ]
-        for one in target.demands
-    ]
-    shown = table(["level", "demand", "value", "limit", "used"], rows, left=("demand",))
-    forces = ", ".join(f"{force / 1e3:.4g}" for force in target.slip_force)
-    pretensions = ", ".join(f"{force / per_pretension / 1e3:.4g}" for force in target.slip_force)
-    at = f"slip force {forces} kN (pretension {pretensions} kN)"
+    from fdspec.report.numbers import kilonewtons
+    from fdspec.report.targets import HEAD, limit_rows, missed, stretches
+
+    shown = table(list(HEAD), limit_rows(target), left=("demand",))
+    force = target.slip_force
+    at = f"slip force {kilonewtons(force)} kN (pretension {kilonewtons(force / per_pretension)} kN)"
     if not target.met:
-        worst = target.worst
-        return (
-            f"No slip force meets all limits: {in_words(worst.name)} at level {worst.level:g} is over its "
-            f"limit by {worst.value / worst.limit - 1.0:.1%} at best, with a {at}.\n\n{shown}"
-        )
-    bands = "; ".join(
-        f"{start / 1e3:.4g} kN and more"
-        if end == float("inf")
-        else f"{start / 1e3:.4g} to {end / 1e3:.4g} kN"
-        for start, end in target.bands
-    )
-    return f"Least {at}.\nAll limits are met at slip forces of {bands}.\n\n{shown}"
+        return f"No slip force meets all limits: {missed(target)}, with a {at}.\n\n{shown}"
+    return f"Least {at}.\nAll limits are met at slip forces of {stretches(target)}.\n\n{shown}"

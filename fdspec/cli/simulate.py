@@ -90,6 +90,7 @@ OF_ALL_STOREYS: Final = (
     metavar="S",
     help="Go on after the record, s.",
 )
+@click.option("--at-rest", is_flag=True, help="Go on until no damper can slip any more.")
 @click.option(
     "--dt-out", type=float, metavar="S", help="Time between outputs, s.  [default: the record's step]"
 )
@@ -120,6 +121,7 @@ def simulate(
     damping_ratio: float,
     brace_damping_ratio: float,
     free_vibration: float,
+    at_rest: bool,
     dt_out: float | None,
     output: str,
     figure: str | None,
@@ -172,7 +174,7 @@ def simulate(
     )
     named = named_record(record, units, dt, channel)
     motion = find_record(named, scaled=not raw)
-    history = compute(frame, motion, dt_out=dt_out, free_vibration=free_vibration)
+    history = compute(frame, motion, dt_out=dt_out, free_vibration=free_vibration, at_rest=at_rest)
     save(history, paths[0], overwrite=force)
     if figure is not None:
         from fdspec.figures import plot_history

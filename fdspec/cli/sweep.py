@@ -48,6 +48,11 @@ if TYPE_CHECKING:
     metavar="NAME|FILE",
     help="A record of the catalogue or a file, in place of the study's; repeat it for several.",
 )
+@click.option(
+    "--record-suite",
+    type=click.Choice(["far-field", "near-field-pulse", "near-field-no-pulse"]),
+    help="All records of a set of FEMA P695, as recorded; needs fdspec[records].",
+)
 @file_options
 @click.option(
     "--intensity",
@@ -58,6 +63,17 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--raw", is_flag=True, help="Leave the catalogue's records as recorded, not scaled to the study's PGA."
+)
+@click.option(
+    "--free-vibration",
+    type=click.FloatRange(min=0.0),
+    metavar="S",
+    help="Go on after each record, the ground at rest, s.",
+)
+@click.option(
+    "--at-rest",
+    is_flag=True,
+    help="Go on until no damper can slip any more: residuals where the building comes to rest.",
 )
 @click.option("--no-certify", is_flag=True, help="Leave out the energy balance of each history; faster.")
 @click.option(
@@ -75,11 +91,14 @@ def sweep(
     study_file: str | None,
     output: str | None,
     records: tuple[str, ...],
+    record_suite: str | None,
     units: str | None,
     dt: float | None,
     channel: str | None,
     intensity: list[float] | None,
     raw: bool,
+    free_vibration: float | None,
+    at_rest: bool,
     no_certify: bool,
     dry_run: bool,
     print_study: bool,
@@ -103,6 +122,7 @@ def sweep(
     \b
         fdspec sweep --print-study > mine.toml
     """
+    from fdspec.records.suites import suite_names
     from fdspec.runs.building_study import read_study
     from fdspec.runs.studies import with_intensity
     from fdspec.runs.study import Study
@@ -110,14 +130,22 @@ def sweep(
 
     started = time.perf_counter()
     study: AnyStudy = Study() if study_file is None else read_study(study_file)
-    if records:
-        chosen = named_records(records, units, dt, channel)
+    if records or record_suite:
+        chosen = named_records(records, units, dt, channel) if records else ()
+        if record_suite:
+            chosen = (*chosen, *suite_names(record_suite))
         study = dataclasses.replace(study, records=chosen, folder=Path())
     elif units or dt or channel:
         raise click.UsageError("--units, --dt and --channel tell about a file named with --record")
     study = dataclasses.replace(
         study, scaled=study.scaled and not raw, certify=study.certify and not no_certify
     )
+    if free_vibration is not None:
+        study = dataclasses.replace(
+            study, after=dataclasses.replace(study.after, free_vibration=free_vibration)
+        )
+    if at_rest:
+        study = dataclasses.replace(study, after=dataclasses.replace(study.after, at_rest=True))
     if intensity is not None:
         study = with_intensity(study, intensity)
     if print_study:

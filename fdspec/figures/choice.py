@@ -57,9 +57,13 @@ def plot_choice_index(choice: xr.Dataset) -> Figure:
         axis.plot(trial, line, color="0.75", linewidth=0.8, label="each record" if k == 0 else None)
     together = "all records together" if choice.sizes["record"] > 1 else "the record"
     axis.plot(trial, choice["trial_index"].values, color=CHOSEN, linewidth=2.2, label=together)
-    reach = min(trial[-1], BEYOND * max(best, end if np.isfinite(end) else best)) or trial[-1]
-    near = f"within {100.0 * _parameters(choice)['band']:.3g} % of the best"
-    axis.axvspan(start, min(end, trial[-1]), color=BAND, alpha=0.2, linewidth=0, label=near)
+    reach = min(max(trial[-1], best), BEYOND * max(best, end if np.isfinite(end) else best)) or trial[-1]
+    limited = "limits" in _parameters(choice)
+    near = "all limits met"
+    if not limited:
+        near = f"within {100.0 * _parameters(choice)['band']:.3g} % of the best"
+    if np.isfinite(start):
+        axis.axvspan(start, min(end, trial[-1]), color=BAND, alpha=0.2, linewidth=0, label=near)
     axis.plot(best, least, "D", color=CHOSEN, markersize=8, markeredgecolor="white", zorder=5)
     for case, dash in (("lower", "--"), ("upper", ":")):
         share = float(choice["index"].sel(case=case))
@@ -73,7 +77,8 @@ def plot_choice_index(choice: xr.Dataset) -> Figure:
     axis.set_ylim(0.0, 1.08 * min(max(1.0, float(shown.max())), 2.5))
     axis.text(0.99 * reach, 1.0, "bare frame", color=BARE, fontsize="small", ha="right", va="bottom")
     axis.annotate(
-        f"best: {best:.3g} kN, {abs(100.0 * (1.0 - least)):.0f} % {'less' if least <= 1.0 else 'more'}",
+        f"{'recommended' if limited else 'best'}: {best:.3g} kN, "
+        f"{abs(100.0 * (1.0 - least)):.0f} % {'less' if least <= 1.0 else 'more'}",
         (best, least),
         (12, 0.05),
         textcoords=("offset points", "axes fraction"),

@@ -15,6 +15,7 @@ from fdspec.model.motion import GroundMotion
 from fdspec.records.folder import records_folder
 from fdspec.records.links import Link, linked
 from fdspec.records.reading import read_record
+from fdspec.records.suites import is_of_suite, load_of_suite
 from fdspec.units import G
 
 
@@ -110,7 +111,8 @@ def load_record(name: str, scaled: bool = True) -> GroundMotion:
     Parameters
     ----------
     name : str
-        FSR1 to FSR3 (soft soil), FMR1 to FMR3 (alluvium), FHR1 to FHR3 (hard soil or rock).
+        FSR1 to FSR3 (soft soil), FMR1 to FMR3 (alluvium), FHR1 to FHR3 (hard soil or rock); or a record of
+        `fdspec.records.suites`, such as P695-FF-01a, which is left as recorded.
     scaled : bool
         Scale to the PGA that the study prints, with the factor in `scale_factor` and `history`; else leave it
         as recorded.
@@ -127,6 +129,8 @@ def load_record(name: str, scaled: bool = True) -> GroundMotion:
     >>> round(motion.pga / 9.80665, 3)
     0.345
     """
+    if is_of_suite(name):
+        return load_of_suite(name)
     entry = catalogue_entry(name)
     link = linked(entry.name)
     motion = _stand_in(entry) if link is None else _own(entry, link)

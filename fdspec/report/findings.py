@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from fdspec.choice.targets import target_of
+from fdspec.measures.ensemble import statistic_of
 from fdspec.measures.indices import name_of
+from fdspec.report.numbers import kilonewtons, listed, percent, rounded
+from fdspec.report.targets import SHOWN, has_limits, limit_sentence, met, missed, stretches
 from fdspec.units import G
 
 if TYPE_CHECKING:
@@ -31,30 +34,6 @@ def parameters(choice: xr.Dataset) -> dict[str, Any]:
     return told
 
 
-def kilonewtons(forces: Any) -> str:
-    """Write forces (N) of one or of many storeys in kN, the lowest first; one number where all are equal."""
-    values = np.atleast_1d(forces) / 1e3
-    return listed(values, lambda value: "no limit" if np.isinf(value) else rounded(value))
-
-
-def rounded(value: float) -> str:
-    """Write a number with three digits, and all of those before the point, long ones in groups: 12 600."""
-    if abs(value) < 999.5:
-        return f"{value:.3g}"
-    return f"{value:.0f}" if abs(value) < 9999.5 else f"{value:,.0f}".replace(",", " ")
-
-
-def listed(values: Any, write: Callable[[float], str]) -> str:
-    """Write one number or many, and many that are equal once."""
-    given = values[:1] if (values == values[0]).all() else values
-    return ", ".join(write(float(value)) for value in given)
-
-
-def percent(share: float) -> str:
-    """Write a share as whole per cents, with the sign that a reduction has."""
-    return f"{100.0 * share:.0f} %"
-
-
 def index_name(choice: xr.Dataset) -> str:
     """The index as a person reads it: mean acceleration index."""
     asked = parameters(choice)
@@ -63,7 +42,6 @@ def index_name(choice: xr.Dataset) -> str:
 
 def recommendation(choice: xr.Dataset) -> list[tuple[str, str]]:
     """(Head, sentence) of the answer."""
-    asked = parameters(choice)
     start, end = (choice["band_pretension"].sel(bound=bound).values for bound in ("start", "end"))
     index = {case: float(choice["index"].sel(case=case)) for case in CASES}
     stiffness = listed(choice["brace_stiffness"].values / 1e6, rounded)
@@ -76,7 +54,8 @@ def recommendation(choice: xr.Dataset) -> list[tuple[str, str]]:
                 f"{kilonewtons(choice['slip_force'].values)} kN)"
             ),
         ),
-        ("Band", f"{_range(start, end)}: {index_name(choice)} within {percent(asked['band'])} of its least"),
+        *([("Limits", limit_sentence(choice))] if has_limits(choice) else []),
+        ("Band", _band(choice, start, end)),
         (
             "Gain",
             (
@@ -86,6 +65,7 @@ def recommendation(choice: xr.Dataset) -> list[tuple[str, str]]:
             ),
         ),
         ("Brace", f"{stiffness} MN/m; must carry {kilonewtons(carried)} kN{_where(carried)}"),
+        ("Slot", slots(choice)),
         ("Other braces", _other_braces(choice)),
         ("Worst record", _worst(choice)),
         ("What limits it", limits(choice)),
@@ -96,13 +76,18 @@ def recommendation(choice: xr.Dataset) -> list[tuple[str, str]]:
 
 def plainly(choice: xr.Dataset) -> str:
     """Say the answer as one would say it to a client."""
-    asked = parameters(choice)
     index = {case: float(choice["index"].sel(case=case)) for case in CASES}
     pretension, carried = choice["pretension"].values, choice["brace_force"].values
     start, end = (choice["band_pretension"].sel(bound=bound).values for bound in ("start", "end"))
     which = "each friction damper" if pretension.size > 1 else "the friction damper"
     over = _over(choice)
-    if float(pretension.max()) == 0.0:
+    if has_limits(choice) and not met(choice):
+        return (
+            f"No slip force meets all limits: {missed(target_of(choice))}. What comes closest is a total "
+            f"pretension of {kilonewtons(pretension)} kN{_where(pretension)}, with which the dampers slip at "
+            f"{kilonewtons(choice['slip_force'].values)} kN."
+        )
+    if float(pretension.max()) == 0.0 and not has_limits(choice):
         return (
             f"Friction does not help here: {over} {_response(choice)} is least when the brace slides freely. "
             "Leave the dampers out."
@@ -112,9 +97,49 @@ def plainly(choice: xr.Dataset) -> str:
         f"it slips at {kilonewtons(choice['slip_force'].values)} kN. {over[0].upper()}{over[1:]} "
         f"{_response(choice)} is then {_against(index['chosen'], index['bare'])} that of the frame without "
         f"dampers and {_against(index['chosen'], index['braced'])} that of a frame with braces which cannot "
-        f"slip. Any pretension {_span(start, end)} does nearly as well, within {percent(asked['band'])}. The "
+        f"slip. {_others(choice, start, end)} The "
         f"brace and its joints must carry {kilonewtons(carried)} kN{_where(carried)}."
     )
+
+
+def _band(choice: xr.Dataset, start: Any, end: Any) -> str:
+    """Say which pretensions are as good: nearly the least index, or within all limits."""
+    if not has_limits(choice):
+        near = percent(parameters(choice)["band"])
+        return f"{_range(start, end)}: {index_name(choice)} within {near} of its least"
+    if not met(choice):
+        return "none: no slip force meets all limits"
+    return f"{_range(start, end)}: the lowest pretensions that meet all limits, as slip forces {_met(choice)}"
+
+
+def _others(choice: xr.Dataset, start: Any, end: Any) -> str:
+    if has_limits(choice):
+        return f"It is the least that meets all limits; so do all pretensions {_span(start, end)}."
+    near = percent(parameters(choice)["band"])
+    return f"Any pretension {_span(start, end)} does nearly as well, within {near}."
+
+
+def _met(choice: xr.Dataset) -> str:
+    return stretches(target_of(choice))
+
+
+def slots(choice: xr.Dataset) -> str:
+    """Say how far the dampers slip to either side: the statistic as recommended, the largest of any bound."""
+    slip = 1e3 * choice["storey_slip"]
+    usual = statistic(choice)(slip.sel(case="chosen").values, axis=0)
+    largest = slip.sel(case=["chosen", "lower", "upper"]).max(("case", "record")).values
+    which = STATISTIC[parameters(choice)["statistic"]]
+    level = choice["storey_level"].item()
+    which += "" if level == 1.0 else f", records times {level:g}"
+    return (
+        f"slips {listed(usual, rounded)} mm to either side{_where(usual)} ({which}); at most "
+        f"{listed(largest, rounded)} mm under any record, with friction at its bounds"
+    )
+
+
+def statistic(choice: xr.Dataset) -> Any:
+    """Return the statistic over records that the choice was made by, a function of values and axis."""
+    return statistic_of(parameters(choice)["statistic"])
 
 
 OVER: Final = {
@@ -205,6 +230,9 @@ def limits(choice: xr.Dataset) -> str:
     """Why it is no better: which records pull the pretension down, and which up."""
     sizes = choice["trial_pretension"].sum("storey").values
     chosen = float(choice["pretension"].sum())
+    if has_limits(choice):
+        one = target_of(choice).worst
+        return f"{SHOWN[one.name].words} at level {one.level:g}, {one.value / one.limit:.0%} of its limit"
     if chosen == 0.0:
         return "no friction is best: every pretension tried makes it worse than a brace that slides freely"
     if float(choice["index"].sel(case="braced")) <= float(choice["index"].sel(case="chosen")):

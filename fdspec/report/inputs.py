@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from fdspec.records import catalogue
-from fdspec.report.findings import index_name, listed, parameters, percent, rounded
+from fdspec.report.findings import index_name, parameters
+from fdspec.report.numbers import listed, percent, rounded
+from fdspec.report.targets import SHOWN, has_limits
 from fdspec.units import G
 
 if TYPE_CHECKING:
@@ -63,13 +65,27 @@ def input_rows(choice: xr.Dataset) -> list[tuple[str, str]]:
         ("Friction coefficient", f"{asked['friction_coefficient']:.3g}"),
         ("Kinetic over static friction", kinetic),
         ("Normal force over pretension", f"{asked['normal_force_factor']:.3g}"),
-        ("What is made least", index_name(choice)),
-        ("Nearly as good", f"within {percent(asked['band'])} of the least"),
+        *_criterion(choice),
         ("Bounds of friction", f"{asked['lower']:.3g} and {asked['upper']:.3g} times the nominal"),
     ]
     if many:
         rows.append(("Slip forces over the height", asked["distribution"]))
     return rows
+
+
+def _criterion(choice: xr.Dataset) -> list[tuple[str, str]]:
+    """What the recommendation is made by."""
+    asked = parameters(choice)
+    if not has_limits(choice):
+        near = f"within {percent(asked['band'])} of the least"
+        return [("What is made least", index_name(choice)), ("Nearly as good", near)]
+    levels = ", ".join(f"{level:g}" for level in asked["levels"])
+    limits = [
+        (f"Limit of {SHOWN[name].words}", f"{rounded(limit * SHOWN[name].scale)} {SHOWN[name].unit}")
+        for name, limit in asked["limits"].items()
+    ]
+    least = ("What is made least", "slip force within all limits")
+    return [least, *limits, ("Levels of the ground motions", levels), ("Index", index_name(choice))]
 
 
 def storey_stiffness(matrix: Any) -> Any:

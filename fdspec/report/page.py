@@ -9,6 +9,7 @@ from html import escape
 from typing import TYPE_CHECKING, Final
 
 from fdspec.choice.bench import Bench, without_braces
+from fdspec.choice.targets import target_of
 from fdspec.figures import (
     encode,
     plot_before_after,
@@ -24,17 +25,17 @@ from fdspec.report.findings import (
     CASES,
     assumptions,
     index_name,
-    kilonewtons,
     parameters,
-    percent,
     plainly,
     recommendation,
-    rounded,
     worst_record,
 )
 from fdspec.report.inputs import MOTION_HEAD, input_rows, motion_rows
+from fdspec.report.numbers import kilonewtons, percent, rounded
 from fdspec.report.rows import record_rows
+from fdspec.report.storeys import storey_caption, storey_rows
 from fdspec.report.style import STYLE
+from fdspec.report.targets import HEAD, has_limits, limit_rows, stretches
 from fdspec.runs.simulate import simulate
 from fdspec.units import G
 
@@ -105,7 +106,8 @@ def page(
             for name, value in input_rows(choice)
         ),
         "</dl>",
-        *(_distribution(choice) if many else ()),
+        *(_limits(choice) if has_limits(choice) else ()),
+        *_distribution(choice),
         "<h2>The ground motions</h2>",
         _table(
             MOTION_HEAD,
@@ -223,10 +225,14 @@ def _index_in_words(choice: xr.Dataset, index: str) -> str:
     sizes = choice["trial_pretension"].max("storey").values
     best = float(choice["index"].sel(case="chosen"))
     at, never = kilonewtons(choice["pretension"].max().item()), kilonewtons(sizes[-1])
+    where = "where it is least"
+    band = f"within {percent(parameters(choice)['band'])} of the least"
+    if has_limits(choice):
+        where, band = "as recommended", "that meet all limits"
     return (
-        f"The {index} is {trial[0]:.3g} with no friction, {best:.3g} at {at} kN, where it is least, and "
-        f"{trial[-1]:.3g} from {never} kN on, where the damper never slips. Below it the band of all within "
-        f"{percent(parameters(choice)['band'])} of the least, and both bounds of friction."
+        f"The {index} is {trial[0]:.3g} with no friction, {best:.3g} at {at} kN, {where}, and "
+        f"{trial[-1]:.3g} from {never} kN on, where the damper never slips. Below it the band of all "
+        f"{band}, and both bounds of friction."
     )
 
 
@@ -266,20 +272,16 @@ def _class(kind: str) -> str:
 
 
 def _distribution(choice: xr.Dataset) -> list[str]:
-    head = ("storey", "slip force, kN", "pretension, kN", "band, kN", "brace, MN/m", "brace must carry, kN")
-    rows = []
-    for storey in choice["storey"].values:
-        at = choice.sel(storey=storey)
-        start, end = at["band_pretension"].values
-        rows.append(
-            [
-                str(storey),
-                kilonewtons(at["slip_force"].item()),
-                kilonewtons(at["pretension"].item()),
-                f"{kilonewtons(start)} to {kilonewtons(end)}",
-                rounded(at["brace_stiffness"].item() / 1e6),
-                kilonewtons(at["brace_force"].item()),
-            ]
-        )
-    told = "Counted from the ground; the band is that of all storeys together."
-    return ["<h2>Storey by storey</h2>", _table(head, rows, told, "Results by storey")]
+    head = "Storey by storey" if choice.sizes["storey"] > 1 else "Damper, slot and brace"
+    table = _table(*storey_rows(choice), storey_caption(choice), "Results by storey")
+    return [f"<h2>{head}</h2>", table]
+
+
+def _limits(choice: xr.Dataset) -> list[str]:
+    target = target_of(choice)
+    told = "Each the statistic over the records, the largest over the bounds of friction. "
+    told += (
+        f"All are met at slip forces of {stretches(target)}." if target.met else "No slip force meets all."
+    )
+    table = _table(HEAD, limit_rows(target), told, "Limits", words=("demand",))
+    return ["<h2>The limits</h2>", table]

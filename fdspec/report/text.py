@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 from fdspec.report.findings import CASES, assumptions, recommendation
 from fdspec.report.inputs import structure
 from fdspec.report.rows import record_rows
+from fdspec.report.storeys import storey_rows
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -44,6 +45,9 @@ def text(choice: xr.Dataset, *, width: int = WIDTH) -> str:
             break_on_hyphens=False,
         )
     ]
+    if choice.sizes["storey"] > 1:
+        head, rows = storey_rows(choice)
+        lines += ["", *_table([head, *rows], width)]
     head, rows = record_rows(choice)
     lines += ["", *_table([head, *rows], width), ""]
     explained = f"Accelerations in g, drifts in mm. lower, upper: {CASES['lower']}, {CASES['upper']}."

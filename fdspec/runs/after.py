@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from fdspec.errors import InvalidInput
@@ -27,6 +28,12 @@ class After:
         """What a cube says of it; nothing where it ends with the motion."""
         there = {"free_vibration": self.free_vibration, "at_rest": self.at_rest}
         return {name: value for name, value in there.items() if value}
+
+    def times(self, motions: Sequence[GroundMotion]) -> float:
+        """Return how many times the work of the motions alone it takes, roughly."""
+        samples = sum(motion.n for motion in motions)
+        longer = (samples + sum(self.free_steps(motion) for motion in motions)) / samples
+        return longer * (2.0 if self.at_rest else 1.0)
 
 
 NOTHING = After()

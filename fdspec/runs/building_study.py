@@ -26,6 +26,7 @@ from fdspec.model.building_grid import BuildingGrid
 from fdspec.model.grid import FloatArray, axis
 from fdspec.model.motion import GroundMotion
 from fdspec.model.toml_lines import parsed
+from fdspec.runs.after import NOTHING, After
 from fdspec.runs.building_cube import DEMANDS, ON_REQUEST, OUTPUTS
 from fdspec.runs.study import (
     STUDY_RECORDS,
@@ -36,7 +37,9 @@ from fdspec.runs.study import (
     distinct,
     even_axis,
     find_records,
+    free_vibration_field,
     known_output,
+    matching,
     mistake_of,
     placed,
     record_field,
@@ -69,6 +72,8 @@ class BuildingStudy:
         Variables of the cube; None for all.
     certify : bool
         Whether the energy balance of every history is checked.
+    after : After
+        Free vibration after every motion, and whether histories go on until the building is at rest.
     folder : Path
         Where relative paths start: the study file's folder.
     sources : mapping
@@ -80,6 +85,7 @@ class BuildingStudy:
     scaled: bool = True
     outputs: tuple[str, ...] | None = None
     certify: bool = True
+    after: After = NOTHING
     folder: Path = Path()
     sources: Mapping[str, str] = field(default_factory=dict)
 
@@ -121,6 +127,8 @@ class BuildingStudy:
         buildings, sources, wrong = _buildings(table.get(BUILDINGS), folder)
         mistakes += wrong
         if not mistakes:
+            values["records"], mistakes = matching(values["records"], folder)
+        if not mistakes:
             scales = values.pop("stiffness_scale"), values.pop("slip_scale"), values.pop("intensity")
             del values[BUILDINGS]
             try:
@@ -128,7 +136,8 @@ class BuildingStudy:
             except InvalidInput as error:
                 mistakes = [((BUILDINGS,), str(error))]
             else:
-                return cls(grid=grid, folder=folder, sources=sources, **values)
+                after = After(values.pop("free_vibration"), values.pop("at_rest"))
+                return cls(grid=grid, after=after, folder=folder, sources=sources, **values)
         if all(where[0] != "records" for where, _ in mistakes):
             mistakes += unknown_records(table.get("records"), folder)
         raise placed(name, text, mistakes)
@@ -154,7 +163,7 @@ class BuildingStudy:
 
 # Building files by name, relative to this file; a list of files takes their names.
 buildings = {{ {files} }}
-# Names of the catalogue (fdspec records list) or record files, relative to this file.
+# Names of the catalogue (fdspec records list) or record files, relative to this file, or "*.AT2".
 records = {records_text(self.records)}
 # Scale the stand-ins of the catalogue to the study's peak ground acceleration.
 scaled = {bool_text(self.scaled)}
@@ -171,6 +180,10 @@ slip_scale = {axis_text(self.grid.slip_scale)}
 {"# " if self.outputs is None else ""}outputs = {strings_text(outputs)}
 # Check the energy balance of every history.
 certify = {bool_text(self.certify)}
+# s that each history goes on after its record, the ground at rest.
+free_vibration = {self.after.free_vibration!r}
+# Go on until no damper can slip any more, and give residuals there; twice the work.
+at_rest = {bool_text(self.after.at_rest)}
 """
 
 
@@ -283,3 +296,5 @@ class _File(BaseModel):
         | None
     ) = None
     certify: StrictBool = True
+    free_vibration: Annotated[Any, PlainValidator(free_vibration_field)] = 0.0
+    at_rest: StrictBool = False

@@ -43,6 +43,7 @@ def compute(study: AnyStudy, motions: Motions, **how: Any) -> xr.Dataset:
     """Return the cube of a study; how: where and how it is computed, as `fdspec.sweep` takes it."""
     grid = study.grid
     what: dict[str, Any] = {"outputs": study.outputs, "certify": study.certify, **how}
+    what |= {"free_vibration": study.after.free_vibration, "at_rest": study.after.at_rest}
     if isinstance(study, Study):
         return of_frames.sweep(motions, **{name: getattr(grid, name) for name in GRID_FIELDS}, **what)
     return of_buildings.sweep_buildings(
@@ -50,6 +51,7 @@ def compute(study: AnyStudy, motions: Motions, **how: Any) -> xr.Dataset:
         dict(zip(study.grid.names, study.grid.buildings, strict=True)),
         stiffness_scale=study.grid.stiffness_scale,
         slip_scale=study.grid.slip_scale,
+        intensity=study.grid.intensity,
         **what,
     )
 
@@ -60,7 +62,10 @@ def outputs_of(study: AnyStudy) -> tuple[str, ...]:
         usual = of_frames.usual_outputs(study.grid)
         known = (*usual, *of_frames.ON_REQUEST)
     else:
-        usual, known = building_cube.usual_outputs(study.grid), building_cube.known_outputs(study.grid)
+        usual, known = (
+            building_cube.usual_outputs(study.grid, study.after),
+            building_cube.known_outputs(study.grid),
+        )
     return chosen(usual if study.outputs is None else study.outputs, known, study.certify)
 
 
@@ -68,22 +73,29 @@ def parameters(study: AnyStudy) -> dict[str, object]:
     """Return the parameters that stand in the study's cube, save its records."""
     outputs = outputs_of(study)
     if isinstance(study, Study):
-        return {**study.grid.parameters, "certify": study.certify, "outputs": list(outputs)}
-    return building_cube.parameters_of(study.grid, outputs, study.certify)
+        told = {**study.grid.parameters, "certify": study.certify, "outputs": list(outputs)}
+    else:
+        told = building_cube.parameters_of(study.grid, outputs, study.certify)
+    return {**told, **study.after.parameters}
 
 
 def expected(study: AnyStudy, motions: Motions) -> float:
     """Return the seconds that the study takes on this machine, rather too many."""
     if isinstance(study, Study):
-        return wall_seconds(motions, study.grid, study.certify)
-    return of_buildings.measured(motions, study.grid, study.certify, outputs_of(study)) / cores()
+        return study.after.times(motions) * wall_seconds(motions, study.grid, study.certify)
+    return study.after.times(motions) * _measured(study, motions) / cores()
 
 
 def rough_seconds(study: AnyStudy, motions: Motions) -> float:
     """Return the core time of a study, s, roughly, with nothing computed."""
+    times = study.after.times(motions)
     if isinstance(study, Study):
-        return sum(seconds_of_sweep(study.grid, motions, study.certify))
-    return of_buildings.rough_seconds(motions, study.grid)
+        return times * sum(seconds_of_sweep(study.grid, motions, study.certify))
+    return times * of_buildings.rough_seconds(motions, study.grid)
+
+
+def _measured(study: BuildingStudy, motions: Motions) -> float:
+    return of_buildings.measured(motions, study.grid, study.certify, outputs_of(study))
 
 
 def with_intensity(study: AnyStudy, intensity: Sequence[float]) -> AnyStudy:
@@ -114,7 +126,7 @@ def planned(study: AnyStudy, motions: Motions) -> Planned:
         return Planned(
             (*levels, ("stiffness ratios", n_sr), ("pretensions", n_f), ("periods", n_t)),
             len(motions) * study.grid.size,
-            cost.of_sweep(study.grid, motions),
+            study.after.times(motions) * cost.of_sweep(study.grid, motions),
             cost.transitions_per_sample * samples / len(motions),
             sum(of_frames.bytes_of(motions, study.grid, outputs).values()),
         )
@@ -125,7 +137,7 @@ def planned(study: AnyStudy, motions: Motions) -> Planned:
     return Planned(
         (*levels, ("buildings", n_b), ("storeys", storeys), ("stiffness scales", n_k), ("slip scales", n_s)),
         len(motions) * study.grid.intensities.size * n_b * n_k * n_s,
-        of_buildings.measured(motions, study.grid, study.certify, outputs_of(study)),
+        study.after.times(motions) * _measured(study, motions),
         None,
         sum(building_cube.bytes_of(motions, study.grid, outputs).values()),
     )

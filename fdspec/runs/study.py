@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from decimal import Decimal
 from functools import partial
+from glob import glob, has_magic
 from pathlib import Path
 from typing import Annotated, Any, Final
 
@@ -27,6 +28,8 @@ from fdspec.model.grid import GRID_FIELDS, FloatArray, Grid, checked, contradict
 from fdspec.model.motion import GroundMotion
 from fdspec.model.toml_lines import key_lines, line_of, parsed
 from fdspec.records import catalogue, load_record, read_record
+from fdspec.records.suites import SUITES, is_of_suite, suite_names
+from fdspec.runs.after import NOTHING, After
 from fdspec.runs.record_scaling import SCALING_FIELDS, Scaling, scaling_of
 from fdspec.variables import CUBE, device_variables
 
@@ -85,6 +88,8 @@ class Study:
         Variables of the cube; None for all.
     certify : bool
         Whether the energy balance of every history is checked.
+    after : After
+        Free vibration after every motion, and whether histories go on until the building is at rest.
     folder : Path
         Where relative paths start: the study file's folder.
     """
@@ -95,6 +100,7 @@ class Study:
     scaling: Scaling | None = None
     outputs: tuple[str, ...] | None = None
     certify: bool = True
+    after: After = NOTHING
     folder: Path = Path()
 
     @classmethod
@@ -130,8 +136,12 @@ class Study:
             if all(where[0] != "records" for where, _ in mistakes):
                 mistakes += unknown_records(table.get("records"), folder)
             raise placed(name, text, mistakes)
+        values["records"], mistakes = matching(values["records"], folder)
+        if mistakes:
+            raise placed(name, text, mistakes)
         grid = Grid(**{key: values.pop(key) for key in GRID_FIELDS})
-        return cls(grid=grid, folder=folder, **values)
+        after = After(values.pop("free_vibration"), values.pop("at_rest"))
+        return cls(grid=grid, after=after, folder=folder, **values)
 
     def motions(self) -> tuple[GroundMotion, ...]:
         """Load the records, in order.
@@ -153,7 +163,8 @@ class Study:
 # A field left out has the value of the study on the nine records.
 
 # Names of the catalogue (fdspec records list) or record files, relative to this file; what a file does not
-# say of itself goes into a table: {{ path = "a.txt", units = "g", dt = 0.01, channel = "EW", name = "b" }}.
+# say of itself goes into a table: {{ path = "a.txt", units = "g", dt = 0.01, channel = "EW", name = "b" }};
+# "*.AT2" stands for all files that match.
 records = {records_text(self.records)}
 # Scale the stand-ins of the catalogue to the study's peak ground acceleration.
 scaled = {bool_text(self.scaled)}
@@ -191,6 +202,10 @@ brace_damping_ratio = {grid.brace_damping_ratio!r}
 {"# " if self.outputs is None else ""}outputs = {strings_text(outputs)}
 # Check the energy balance of every history.
 certify = {bool_text(self.certify)}
+# s that each history goes on after its record, the ground at rest.
+free_vibration = {self.after.free_vibration!r}
+# Go on until no damper can slip any more, and give residuals there; twice the work.
+at_rest = {bool_text(self.after.at_rest)}
 """
 
 
@@ -319,7 +334,11 @@ def unknown_records(given: object, folder: Path) -> list[tuple[tuple[str | int, 
         path = record.get("path") if isinstance(record, dict) else record
         if not isinstance(path, str):
             continue  # told already
-        if _is_path(path, folder):
+        if path in SUITES or is_of_suite(path):
+            continue
+        if is_pattern(path, folder):
+            found += [(("records", index), sentence) for sentence in _unmatched(path, folder)]
+        elif _is_path(path, folder):
             if not (folder / path).exists():
                 found.append((("records", index), f"records: there is no file {folder / path}"))
         elif not is_catalogued(path):
@@ -328,6 +347,51 @@ def unknown_records(given: object, folder: Path) -> list[tuple[tuple[str | int, 
             except RecordError as error:
                 found.append((("records", index), f"records: {error}"))
     return found
+
+
+def is_pattern(path: str, folder: Path) -> bool:
+    """Say whether a path stands for all files that it matches: it has a wildcard, and is no file itself."""
+    return has_magic(path) and not (folder / path).exists()
+
+
+def matching(
+    records: tuple[str | RecordFile, ...], folder: Path
+) -> tuple[tuple[str | RecordFile, ...], list[tuple[tuple[str | int, ...], str]]]:
+    """Return the records with the files, in order, in place of each pattern, and what is wrong with them."""
+    found: list[str | RecordFile] = []
+    mistakes: list[tuple[tuple[str | int, ...], str]] = []
+    for index, record in enumerate(records):
+        path = record if isinstance(record, str) else record.path
+        if path in SUITES and isinstance(record, str):
+            found += suite_names(path)
+            continue
+        if not is_pattern(path, folder):
+            found.append(record)
+            continue
+        files = _files(path, folder)
+        mistakes += [(("records", index), sentence) for sentence in _unmatched(path, folder)]
+        if isinstance(record, RecordFile) and record.name is not None and len(files) > 1:
+            sentence = (
+                f"records: {path!r} matches {len(files)} files, which cannot all be named {record.name!r}"
+            )
+            mistakes.append((("records", index), sentence))
+        found += [file if isinstance(record, str) else replace(record, path=file) for file in files]
+    try:
+        return distinct(tuple(found)) if not mistakes else (), mistakes
+    except ValueError as error:
+        return (), [(("records",), f"records: {error}")]
+
+
+def _files(pattern: str, folder: Path) -> list[str]:
+    """Return the files that a pattern matches, in order, relative to the folder as it is."""
+    names = glob(pattern, root_dir=folder, recursive=True)  # noqa: PTH207  keeps what was typed
+    return sorted(name for name in names if (folder / name).is_file())
+
+
+def _unmatched(pattern: str, folder: Path) -> list[str]:
+    if _files(pattern, folder):
+        return []
+    return [f"records: no file matches {pattern!r} in {folder.resolve()}"]
 
 
 def _is_path(record: str, folder: Path) -> bool:
@@ -390,6 +454,13 @@ def record_field(value: object) -> str | RecordFile:
     return RecordFile(**value, scaling=scaling_of(scaling) if scaling else None)
 
 
+def free_vibration_field(value: object) -> float:
+    """Return the seconds of free vibration of a study file; raise ValueError for what they cannot be."""
+    if isinstance(value, bool) or not (isinstance(value, int | float) and 0.0 <= value < math.inf):
+        raise ValueError(f"must be zero or a positive time in s, got {value!r:.60}")
+    return float(value)
+
+
 def distinct(values: tuple[Any, ...]) -> tuple[Any, ...]:
     """Return the values; raise ValueError where there are none, or one comes twice."""
     if not values:
@@ -433,6 +504,8 @@ def _study_file() -> type[BaseModel]:
         scaling=(Annotated[Any, PlainValidator(scaling_of)], None),
         outputs=(outputs | None, None),
         certify=(StrictBool, True),
+        free_vibration=(Annotated[Any, PlainValidator(free_vibration_field)], 0.0),
+        at_rest=(StrictBool, False),
         **scalars_and_axes,
     )
 

@@ -29,6 +29,17 @@ def write_history(history: xr.Dataset, part: Path, path: Path, heading: list[str
     What each storey or link has of its own is a column for each, ``drift_1``, ``drift_2`` and so on where
     there are several; what has one value, or one for each storey, stands in the heading.
     """
+    names, columns = course_of(history)
+    about = [*heading, *_told(history, names), *fixed(history)]
+    _write(part, about, columns)
+    changes = changes_of(history)
+    if changes:
+        with replacing(transitions_file(path), suffixes=CSV_SUFFIXES) as other:
+            _write(other, [*heading, *_told(history, list(changes))], changes)
+
+
+def course_of(history: xr.Dataset) -> tuple[list[str], dict[str, Any]]:
+    """Return the variables over time, time first, and their columns: one for each storey or link."""
     names = [str(name) for name, array in history.variables.items() if array.dims[:1] == ("time",)]
     columns: dict[str, Any] = {}
     for name in sorted(names, key=lambda name: name != "time"):
@@ -41,14 +52,14 @@ def write_history(history: xr.Dataset, part: Path, path: Path, heading: list[str
             labels = history[dim].values.tolist() if dim in history.coords else range(1, many + 1)
             for k, label in enumerate(labels):
                 columns[f"{name}_{label}" if many > 1 else name] = array.values[:, k]
-    about = [*heading, *_told(history, names), *_fixed(history)]
-    _write(part, about, columns)
-    changes = {
+    return names, columns
+
+
+def changes_of(history: xr.Dataset) -> dict[str, Any]:
+    """Return the columns of the changes of phase."""
+    return {
         str(name): array.values for name, array in history.variables.items() if array.dims == ("transition",)
     }
-    if changes:
-        with replacing(transitions_file(path), suffixes=CSV_SUFFIXES) as other:
-            _write(other, [*heading, *_told(history, list(changes))], changes)
 
 
 def _write(part: Path, heading: list[str], columns: dict[str, Any]) -> None:
@@ -64,7 +75,7 @@ def _told(history: xr.Dataset, names: list[str]) -> Iterator[str]:
         yield meaning_of(name, history[name].attrs)
 
 
-def _fixed(history: xr.Dataset) -> Iterator[str]:
+def fixed(history: xr.Dataset) -> Iterator[str]:
     """Give what does not change in time, with its values."""
     for key, array in history.variables.items():
         name = str(key)

@@ -22,8 +22,9 @@ from fdspec.model.building import Building
 from fdspec.model.building_file import read_building
 from fdspec.model.motion import GroundMotion
 from fdspec.report import page, text
-from fdspec.report.findings import plainly, rounded
+from fdspec.report.findings import plainly
 from fdspec.report.inputs import MOTION_HEAD, first_mode, input_rows, motion_rows, storey_stiffness
+from fdspec.report.numbers import rounded
 from fdspec.runs.study import STUDY_RECORDS
 from tests.unit.test_choice import clipped
 
@@ -125,6 +126,23 @@ def test_the_brace_carries_what_rings_in_it(choice: xr.Dataset, motions: list[Gr
     fine = stuck.brace_stiffness[0] * max(reach)
     assert choice["brace_force"].item() == pytest.approx(fine, rel=1e-3)
     assert choice["brace_force"].item() >= fine
+
+
+def test_slip_drift_and_brace_force_of_each_storey_are_those_of_its_history(
+    of_building: xr.Dataset, building: Building, motions: list[GroundMotion]
+) -> None:
+    force = of_building["slip_force"].values
+    for case, forces in (("chosen", force), ("lower", 0.8 * force), ("braced", np.full(2, np.inf))):
+        for motion in motions[:2]:
+            damped = building.with_changes(slip_force=forces, kinetic_slip_force=forces)
+            history = fdspec.simulate(damped, motion)
+            at = of_building.sel(case=case, record=motion.name)
+            for name in ("slip", "drift", "brace_force", "acceleration"):
+                ours, theirs = at[f"storey_{name}"].values, history[f"peak_{name}"].values
+                np.testing.assert_allclose(ours, theirs, rtol=1e-12, err_msg=f"{case} {name}")
+    assert (of_building["storey_slip"].sel(case="bare") == 0.0).all()
+    by_storey = of_building["storey_drift"].max("storey")
+    np.testing.assert_allclose(by_storey, of_building["peak_drift"], rtol=1e-9)
 
 
 def test_the_trials_hold_the_best_and_the_regret(choice: xr.Dataset) -> None:

@@ -166,8 +166,8 @@ def test_export_writes_one_record(folder: Path, capsys: pytest.CaptureFixture[st
 def test_export_wants_one_record_a_known_suffix_and_a_free_name(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert "name one of FSR1, odd/name" in refused(capsys, "export", "cube.nc", "-o", "a.csv")
-    assert ".nc or .csv" in refused(capsys, "export", "cube.nc", "-o", "a.xls")
+    assert "name one of FSR1, odd/name" in refused(capsys, "export", "cube.nc", "-o", "a.nc")
+    assert ".nc or .nc4" in refused(capsys, "export", "cube.nc", "-o", "a.xls")
     assert "exists already" in refused(capsys, "export", "cube.nc", "-o", "cube.nc", "--record", "FSR1")
     assert names(folder) == {"cube.nc"}
 

@@ -66,6 +66,21 @@ def test_csv_holds_every_cell_to_the_bit(tmp_path):
         assert written.tobytes() == expected.tobytes(), name
 
 
+def test_csv_holds_every_record_with_a_column_for_each_axis(tmp_path):
+    cube = synthetic_cube()
+    store.export(cube, tmp_path / "all.csv")
+    heading, rows = read_csv(tmp_path / "all.csv")
+    assert "# records: FSR1, FMR2, İzmit 1" in heading
+    assert list(rows[0])[:4] == ["record", *DIMS]
+    everywhere = cube["peak_acceleration"]
+    names = [name for name in cube.data_vars if cube[name].ndim] + ["slip_force", "pga", *DIMS]
+    for name in names:
+        expected = cube[name].broadcast_like(everywhere).transpose("record", *DIMS).to_numpy().ravel()
+        written = np.array([row[name] for row in rows]).astype(expected.dtype)
+        assert written.tobytes() == expected.tobytes(), name
+    assert [row["record"] for row in rows] == np.repeat(cube["record"].values, 2 * 3 * 4).tolist()
+
+
 def test_csv_of_buildings_has_a_row_for_each_storey(tmp_path):
     cube = synthetic_building_cube()
     store.export(cube, tmp_path / "one.csv", record="FSR1")
@@ -140,11 +155,11 @@ def test_a_single_cell(tmp_path):
         (synthetic_cube(), "one.nc", "FSR9", "the cube holds no record 'FSR9'; it has FSR1, FMR2, İzmit 1"),
         (
             synthetic_cube(),
-            "one.xlsx",
+            "one.xls",
             "FSR1",
-            "the name should end in .nc or .nc4 or .netcdf or .cdf or .csv",
+            "the name should end in .nc or .nc4 or .netcdf or .cdf or .csv or .xlsx or .mat",
         ),
-        (synthetic_cube(), "one", "FSR1", "the name should end in .nc or .csv"),
+        (synthetic_cube(), "one", "FSR1", "the name should end in .nc, .csv, .xlsx or .mat"),
         (
             xr.Dataset({"x": 1.0}),
             "one.nc",

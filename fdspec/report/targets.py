@@ -1,0 +1,92 @@
+"""What a choice says of its limits: which are met, how much of each is used, which is missed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+from fdspec.choice.targets import Target, target_of
+from fdspec.report.numbers import kilonewtons, rounded
+from fdspec.units import G
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+class Shown(NamedTuple):
+    """How a demand is written: its words, its unit, and the factor from SI."""
+
+    words: str
+    unit: str
+    scale: float
+
+
+SHOWN: Final = {
+    "acceleration": Shown("peak acceleration", "g", 1.0 / G),
+    "drift": Shown("peak drift", "mm", 1e3),
+    "drift_ratio": Shown("drift ratio", "%", 1e2),
+    "base_shear": Shown("base shear", "kN", 1e-3),
+    "residual_drift": Shown("residual drift", "mm", 1e3),
+    "slip": Shown("slip", "mm", 1e3),
+    "slip_travel": Shown("slip travel", "m", 1.0),
+}
+
+HEAD: Final = ("level", "demand", "value", "limit", "used")
+
+
+def has_limits(choice: xr.Dataset) -> bool:
+    """Say whether the choice was made to meet limits."""
+    return "used" in choice
+
+
+def met(choice: xr.Dataset) -> bool:
+    """Say whether it was made to meet limits, and does."""
+    return has_limits(choice) and bool(choice["limits_met"].item())
+
+
+def missed(target: Target) -> str:
+    """Say which limit cannot be met, and by how much."""
+    worst = target.worst
+    shown = SHOWN[worst.name]
+    return (
+        f"{shown.words} at level {worst.level:g} is over its limit by {worst.value / worst.limit - 1.0:.1%} "
+        f"at best, {rounded(worst.value * shown.scale)} {shown.unit} of {rounded(worst.limit * shown.scale)} "
+        f"{shown.unit}"
+    )
+
+
+def limit_sentence(choice: xr.Dataset) -> str:
+    """Say whether all limits are met, and how much of each is used."""
+    target = target_of(choice)
+    if not target.met:
+        return f"no slip force meets all: {missed(target)}"
+    told = [
+        f"{SHOWN[one.name].words} {rounded(one.value * SHOWN[one.name].scale)} of "
+        f"{rounded(one.limit * SHOWN[one.name].scale)} {SHOWN[one.name].unit} at level {one.level:g}"
+        for one in target.demands
+    ]
+    return f"all met: {'; '.join(told)}"
+
+
+def stretches(target: Target) -> str:
+    """Return the stretches of slip force that meet all limits."""
+    told = [
+        f"{kilonewtons(start)} kN and more"
+        if end == float("inf")
+        else f"{kilonewtons(start)} to {kilonewtons(end)} kN"
+        for start, end in target.bands
+    ]
+    return "; ".join(told)
+
+
+def limit_rows(target: Target) -> list[list[str]]:
+    """Return a row a limit and level under `HEAD`."""
+    return [
+        [
+            f"{one.level:g}",
+            SHOWN[one.name].words,
+            f"{rounded(one.value * SHOWN[one.name].scale)} {SHOWN[one.name].unit}",
+            f"{rounded(one.limit * SHOWN[one.name].scale)} {SHOWN[one.name].unit}",
+            f"{one.value / one.limit:.0%}",
+        ]
+        for one in target.demands
+    ]
