@@ -12,6 +12,10 @@ from hypothesis import settings
 # A shell has its background jobs ignore Ctrl-C, and so do their children: the tests of Ctrl-C need it.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
+# Matrices here are small: the threads of a BLAS would wait for each other, for minutes where a core is busy.
+for threads in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(threads, "1")
+
 SHARED = Path(__file__).resolve().parents[2] / "shared"
 
 # Records that a developer has linked would change what the catalogue's names give. No fixture: some tests
