@@ -122,34 +122,15 @@ def choose(
     >>> bool(choice["index"].sel(case="chosen") < choice["index"].sel(case="braced"))
     True
     """
-    if distribution not in DISTRIBUTIONS:
-        raise InvalidInput(f"distribution must be one of {', '.join(DISTRIBUTIONS)}, got {distribution!r}")
-    if not 0.0 < lower <= 1.0 <= upper < np.inf:
-        raise InvalidInput(f"lower and upper must be positive, about 1, got {lower!r} and {upper!r}")
-    if not 0.0 <= band < np.inf:
-        raise InvalidInput(f"band must be zero or positive, got {band!r}")
-    for name, value in (
-        ("friction_coefficient", friction_coefficient),
-        ("normal_force_factor", normal_force_factor),
-    ):
-        if not 0.0 < value < np.inf:
-            raise InvalidInput(f"{name} must be positive and finite, got {value!r}")
+    _refuse_wrong(distribution, lower, upper, band)
+    per_pretension = _per_pretension(friction_coefficient, normal_force_factor)
     scales = sorted({1.0, *(float(scale) for scale in stiffness_scale)})
     if not 0.0 < scales[0] <= scales[-1] < np.inf:
         raise InvalidInput(f"stiffness_scale must be positive and finite, got {list(stiffness_scale)!r}")
     given = (motions,) if isinstance(motions, GroundMotion) else tuple(motions)
     bench = Bench(building, given, index, statistic, workers)
-    with progress_bar(len(scales) + 1, "searches", shown=progress) as done:
-        shape = _shape(bench, distribution, seed)
-        done(1)
-        found, of_record = _searched(bench, shape, band)
-        done(1)
-        scans = {1.0: found}
-        for scale in scales:
-            if scale != 1.0:
-                other = replace(bench, building=_with_braces(building, scale))
-                scans[scale] = best_scale(other, shape, band)
-                done(1)
+    shape, scans, of_record = _searches(bench, distribution, seed, scales, band, progress)
+    found = scans[1.0]
     if not np.isfinite(found.least):
         raise InvalidInput("no history of this building ended well: there is nothing to recommend")
     target = None
@@ -176,7 +157,6 @@ def choose(
     if target is not None:  # what is recommended was no trial of the search for the least index
         trials, trial_indices = _with_cases(trials, of_record, cases, indices)
     ends = _per_storey(stretch, shape)
-    per_pretension = friction_coefficient * normal_force_factor
     own = indices[CASES.index("chosen")]
     least = np.minimum(of_record.min(axis=0), own)  # the choice may be better than every trial
     variables = {
@@ -207,11 +187,7 @@ def choose(
     asked: dict[str, object] = {}
     if target is not None and limits:
         variables |= _met(target, shape)
-        axes |= {
-            "level": sorted({one.level for one in target.demands}),
-            "limited": list(limits),
-            "stretch": np.arange(1, len(target.bands) + 1),
-        }
+        axes |= _axes_of(target, limits)
         asked = {"limits": dict(limits), "levels": axes["level"]}
     return assemble(
         variables,
@@ -235,6 +211,53 @@ def choose(
         },
         command="fdspec.choose",
     )
+
+
+def _refuse_wrong(distribution: str, lower: float, upper: float, band: float) -> None:
+    if distribution not in DISTRIBUTIONS:
+        raise InvalidInput(f"distribution must be one of {', '.join(DISTRIBUTIONS)}, got {distribution!r}")
+    if not 0.0 < lower <= 1.0 <= upper < np.inf:
+        raise InvalidInput(f"lower and upper must be positive, about 1, got {lower!r} and {upper!r}")
+    if not 0.0 <= band < np.inf:
+        raise InvalidInput(f"band must be zero or positive, got {band!r}")
+
+
+def _per_pretension(friction_coefficient: float, normal_force_factor: float) -> float:
+    """Slip force per pretension."""
+    for name, value in (
+        ("friction_coefficient", friction_coefficient),
+        ("normal_force_factor", normal_force_factor),
+    ):
+        if not 0.0 < value < np.inf:
+            raise InvalidInput(f"{name} must be positive and finite, got {value!r}")
+    return friction_coefficient * normal_force_factor
+
+
+def _axes_of(target: Target, limits: Mapping[str, float]) -> dict[str, Any]:
+    """Coordinates of what is told of the limits."""
+    return {
+        "level": sorted({one.level for one in target.demands}),
+        "limited": list(limits),
+        "stretch": np.arange(1, len(target.bands) + 1),
+    }
+
+
+def _searches(
+    bench: Bench, distribution: str, seed: int, scales: Sequence[float], band: float, progress: Shown
+) -> tuple[FloatArray, dict[float, Scan], FloatArray]:
+    """Return the shape, the search over its scale under each stiffness, and the first one's indices by record."""
+    with progress_bar(len(scales) + 1, "searches", shown=progress) as done:
+        shape = _shape(bench, distribution, seed)
+        done(1)
+        found, of_record = _searched(bench, shape, band)
+        done(1)
+        scans = {1.0: found}
+        for scale in scales:
+            if scale != 1.0:
+                other = replace(bench, building=_with_braces(bench.building, scale))
+                scans[scale] = best_scale(other, shape, band)
+                done(1)
+    return shape, scans, of_record
 
 
 def _shape(bench: Bench, distribution: str, seed: int) -> FloatArray:

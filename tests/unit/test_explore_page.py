@@ -91,7 +91,9 @@ def test_what_cannot_be_shown_leaves_no_file(folder: Path, capsys: pytest.Captur
     assert "has no record 'FSR9'; it has FSR1" in refused(
         capsys, "export", "cube.nc", "--html", "--record", "FSR9"
     )
-    assert "Give -o FILE.nc or -o FILE.csv, or --html" in refused(capsys, "export", "cube.nc")
+    assert "Give -o FILE.nc, .csv, .xlsx or .mat, or --format, or --html" in refused(
+        capsys, "export", "cube.nc"
+    )
     assert {path.name for path in folder.iterdir()} == {"cube.nc", "buildings.nc"}
 
 

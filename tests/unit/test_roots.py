@@ -103,9 +103,9 @@ def test_largest_magnitude(seed: int, degree: int, theta: float) -> None:
 
 
 @given(
-    st.floats(0.0, 1.0),
+    st.floats(0.0, 1.0, allow_subnormal=False),  # products of those below vanish in the test itself
     st.floats(-3.0, 3.0),
-    st.floats(0.0, 1.0),
+    st.floats(0.0, 1.0, allow_subnormal=False),
     st.floats(-3.0, 3.0),
     st.floats(-20.0, 20.0),
 )

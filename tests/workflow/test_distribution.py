@@ -25,7 +25,7 @@ def declared() -> set[str]:
     extras = project["optional-dependencies"]
     lines = [
         *project["dependencies"],
-        *(line for extra in ("cluster", "explore", "miniseed") for line in extras[extra]),
+        *(line for extra in ("cluster", "excel", "explore", "miniseed", "records") for line in extras[extra]),
     ]
     return {re.split(r"[<>=;\[ ]", line)[0].lower() for line in lines}
 
