@@ -245,7 +245,7 @@ def _axes_of(target: Target, limits: Mapping[str, float]) -> dict[str, Any]:
 def _searches(
     bench: Bench, distribution: str, seed: int, scales: Sequence[float], band: float, progress: Shown
 ) -> tuple[FloatArray, dict[float, Scan], FloatArray]:
-    """Return the shape, the search over its scale under each stiffness, and the first one's indices by record."""
+    """Return the shape, the search over its scale by stiffness, and indices of the first by record."""
     with progress_bar(len(scales) + 1, "searches", shown=progress) as done:
         shape = _shape(bench, distribution, seed)
         done(1)
