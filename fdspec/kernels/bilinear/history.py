@@ -246,9 +246,22 @@ def history(
                 done = min(root, 1.0)
                 u1 = sum_at(series, n, done)
                 v1 = slope_at(series, n, done) / (h * left)
-                displacement, acceleration = raise_peaks(
-                    c, stiff, b, h * left, series, n, done, room, displacement, acceleration
-                )
+                span = h * left * done
+                w0 = b - start - c * v - stiff * u
+                w1 = b - start - rise * left * done - c * v1 - stiff * u1
+                y0 = w0 + start
+                y1 = w1 + start + rise * left * done
+                displacement = max(displacement, abs(u1))
+                acceleration = max(acceleration, abs(y1))
+                constants = elastic if mode == ELASTIC else hardening
+                second, third = reach(c, stiff, constants, v, w0, v1, w1, rise / h)
+                fourth = c * third + abs(stiff) * second
+                if may_turn(
+                    c, stiff, span, u, v, w0, y0, u1, v1, w1, y1, third, fourth, displacement, acceleration
+                ):
+                    displacement, acceleration = raise_peaks(
+                        c, stiff, b, h * left, series, n, done, room, displacement, acceleration
+                    )
                 if certify and done > 0.0:
                     area = series_area(series, n - 1, h * left, done)
                     work += start * u - (start + rise * left * done) * u1 + rise / h * area
