@@ -32,11 +32,18 @@ class Oscillator(NamedTuple):
 
 
 def bilinear_peaks(
-    oscillator: Oscillator, period: float, strength: FloatArray, motion: GroundMotion, *, halvings: int = 0
+    oscillator: Oscillator,
+    period: float,
+    strength: FloatArray,
+    motion: GroundMotion,
+    *,
+    certify: bool = True,
+    halvings: int = 0,
 ) -> FloatArray:
     """Return the results of one period under strengths (m,), m/s2: (m, len(RESULTS)).
 
-    Period 0 is a rigid block on the ground.  halvings: of the steps; no result depends on it.
+    Period 0 is a rigid block on the ground.  certify: whether the energy balance is closed.  halvings: of the
+    steps; no result depends on it.
     """
     strength = np.ascontiguousarray(strength, dtype=np.float64)
     out = np.empty((strength.size, len(RESULTS)))
@@ -53,7 +60,7 @@ def bilinear_peaks(
         oscillator.hardening_ratio,
         strength,
         limit,
-        True,
+        certify,
         True,
         halvings,
         out,

@@ -150,6 +150,8 @@ def history(
     after the record until nothing can yield and no larger displacement can come.  series, room: (TERMS,).
     """
     h = dt / parts
+    share = 1.0 / parts
+    pace = 1.0 / h
     limit = strength / k
     force = (1.0 - alpha) * strength
     soft = alpha * k
@@ -175,7 +177,7 @@ def history(
     step = 0
     while step < most:
         if step < steps:
-            rise = (ground[sample + 1] - ground[sample]) / parts
+            rise = (ground[sample + 1] - ground[sample]) * share
             a0 = ground[sample] + rise * part
             part += 1
             if part == parts:
@@ -203,7 +205,7 @@ def history(
         v1 = row_times(constants, V_ROW, u, v, e0, e1)
         w0 = -e0 - c * v - stiff * u
         w1 = -e1 - c * v1 - stiff * u1
-        second, third = reach(c, stiff, constants, v, w0, v1, w1, rise / h)
+        second, third = reach(c, stiff, constants, v, w0, v1, w1, rise * pace)
         bow = eighth * second
         if mode == ELASTIC:
             clear = max(abs(u - p), abs(u1 - p)) + bow < limit
@@ -226,7 +228,7 @@ def history(
                 )
             if certify:
                 area = row_times(constants, INTEGRAL_ROW, u, v, e0, e1)
-                work += a0 * u - (a0 + rise) * u1 + rise / h * area
+                work += a0 * u - (a0 + rise) * u1 + rise * pace * area
                 viscous += c * squared_velocity(constants, u, v, e0, e1)
             if mode != ELASTIC:
                 travel += mode * (u1 - u)
@@ -254,7 +256,7 @@ def history(
                 displacement = max(displacement, abs(u1))
                 acceleration = max(acceleration, abs(y1))
                 constants = elastic if mode == ELASTIC else hardening
-                second, third = reach(c, stiff, constants, v, w0, v1, w1, rise / h)
+                second, third = reach(c, stiff, constants, v, w0, v1, w1, rise * pace)
                 fourth = c * third + abs(stiff) * second
                 if may_turn(
                     c, stiff, span, u, v, w0, y0, u1, v1, w1, y1, third, fourth, displacement, acceleration
@@ -264,7 +266,7 @@ def history(
                     )
                 if certify and done > 0.0:
                     area = series_area(series, n - 1, h * left, done)
-                    work += start * u - (start + rise * left * done) * u1 + rise / h * area
+                    work += start * u - (start + rise * left * done) * u1 + rise * pace * area
                     viscous += c * series_square(series, n - 1, h * left, done)
                 if mode != ELASTIC:
                     travel += mode * (u1 - u)
