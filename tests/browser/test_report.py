@@ -92,7 +92,9 @@ def test_no_column_and_no_caption_is_lost_in_print(printed: Path, report: Path) 
     assert len(captions) == 6
     for words in captions:
         assert unescape(words) in text
-    for name in ("magnitude", "regret", "brace must carry, kN", "Loma Prieta 1989-10-18", "El Centro Array"):
+    # A head that is broken stands in two lines of the print.
+    names = ("magnitude", "regret", "brace must", "carry, kN", "slip, mm", "Loma Prieta 1989-10-18")
+    for name in (*names, "El Centro Array"):
         assert name in text, name
 
 
