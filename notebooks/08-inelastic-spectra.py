@@ -70,7 +70,7 @@ axis.set_ylabel("ductility")
 axis.set_title(
     f"{record}, period {period:.2f} s: ductility {target:g} at {roots.size} strengths", fontsize="medium"
 )
-figure
+plt.show()
 
 # %% [markdown]
 # ## What a step costs
@@ -133,7 +133,7 @@ axis.legend(frameon=False)
 axis.set_title(
     f"{motion.name}, elastic strength over 4: a stepped program against the exact motion", fontsize="medium"
 )
-figure
+plt.show()
 
 # %% [markdown]
 # ## The spring that loses force

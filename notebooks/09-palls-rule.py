@@ -69,7 +69,7 @@ for axis, name in zip(axes, ("peak_acceleration", "peak_displacement"), strict=T
     )
 axes[0].set_ylabel("share of frames and records, %")
 axes[0].legend(frameon=False, loc="lower right")
-figure
+plt.show()
 
 # %% [markdown]
 # ## What is left of the rule

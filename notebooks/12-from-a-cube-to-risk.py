@@ -91,7 +91,7 @@ right.bar(middle, 100 * share, width=0.15 * middle, color="#009E73")
 right.set_xscale("log")
 right.set_xlabel("peak ground acceleration, m/s²")
 right.set_ylabel("share of the rate, %")
-figure
+plt.show()
 
 # %% [markdown]
 # The right panel says which earthquakes the rate comes from. A curve with its band at any intensity is one

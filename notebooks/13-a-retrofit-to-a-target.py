@@ -72,7 +72,7 @@ axis.text(1.03 * period, 0.05, f"frame, {period:.2f} s", color="0.35")
 axis.set(xscale="log", xlabel="period, s", ylabel="spectral acceleration, g", ylim=(0, None))
 axis.set_xticks([0.1, 0.2, 0.5, 1, 2], ["0.1", "0.2", "0.5", "1", "2"])
 axis.legend(frameon=False, ncols=2)
-figure
+plt.show()
 
 # %% [markdown]
 # ## The least that meets the target
@@ -137,7 +137,7 @@ for (name, values), colour in zip(ratios.items(), ("#595959", "#0072B2"), strict
 axis.axvline(1.0, color="#D55E00", linestyle="--", label="limit")
 axis.set(xlabel="peak drift ratio, %", ylabel="storey", yticks=storeys, xlim=(0, None))
 axis.legend(frameon=False)
-figure
+plt.show()
 
 # %% [markdown]
 # ## The report

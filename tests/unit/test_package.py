@@ -75,9 +75,25 @@ def test_a_module_that_needs_what_is_missing_says_what() -> None:
     assert run(code).startswith("tornado")
 
 
-@pytest.mark.parametrize(
-    "path", sorted((Path(__file__).parents[2] / "notebooks").glob("*.py")), ids=lambda p: p.stem
-)
+NOTEBOOKS = sorted((Path(__file__).parents[2] / "notebooks").glob("*.py"))
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_a_notebook_shows_no_picture_twice(path: Path) -> None:
+    """Pyplot shows its figures at a cell's end; the figure's name there would show it once more."""
+    body = ast.parse(path.read_text(encoding="utf-8")).body
+    made = {
+        name.id
+        for node in body
+        if isinstance(node, ast.Assign) and ast.unparse(node.value).startswith("plt.")
+        for name in ast.walk(node.targets[0])
+        if isinstance(name, ast.Name)
+    }
+    told = {node.value.id for node in body if isinstance(node, ast.Expr) and isinstance(node.value, ast.Name)}
+    assert not made & told
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_a_notebook_needs_no_ipython_as_a_script(path: Path) -> None:
     """Its imports, run by a Python that has none."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
