@@ -5,6 +5,7 @@ import subprocess
 import sys
 import urllib.request
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -56,23 +57,29 @@ def folder(tmp_path_factory: pytest.TempPathFactory, cube: xr.Dataset) -> Path:
     return made
 
 
+@contextmanager
+def served(folder: Path, *cubes: str) -> Iterator[str]:
+    """Serve these files of the folder on one page; give its address."""
+    command = [sys.executable, "-m", "fdspec", "explore", *cubes, "--no-browser"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=folder)
+    try:
+        assert process.stdout is not None
+        yield process.stdout.readline().split()[0]
+    finally:
+        process.kill()
+        process.communicate()
+
+
 @pytest.fixture(scope="session")
 def address(folder: Path) -> Iterator[str]:
     """Serve the cube."""
-    command = [sys.executable, "-m", "fdspec", "explore", str(folder / "cube.nc"), "--no-browser"]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-    try:
-        assert process.stdout is not None
-        found = process.stdout.readline().split()[0]
+    with served(folder, "cube.nc") as found:
         # Where no kernel is compiled yet, the tests' patience must not pay for it.
         place = "record=0&stiffness_ratio=0&period=0"
         for path in (f"history?{place}&pretension=0", f"best?{place}&index=acceleration"):
             with urllib.request.urlopen(found + path, timeout=600) as answer:
                 assert answer.status == 200
         yield found
-    finally:
-        process.kill()
-        process.communicate()
 
 
 @dataclass

@@ -1,8 +1,6 @@
 """The page of a cube of buildings: profiles over the height, and the factors that change them."""
 
 import csv
-import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -16,7 +14,7 @@ import fdspec
 from fdspec import store
 from fdspec.cli import main
 from fdspec.units import G
-from tests.browser.conftest import PATIENCE, SETTLED, Watched
+from tests.browser.conftest import PATIENCE, SETTLED, Watched, served
 from tests.browser.test_page import drawn, words
 from tests.explored import own_motion
 
@@ -54,14 +52,8 @@ def place(tmp_path_factory: pytest.TempPathFactory, buildings: xr.Dataset) -> Pa
 @pytest.fixture(scope="module")
 def of_buildings(place: Path) -> Iterator[str]:
     """Serve the cube."""
-    command = [sys.executable, "-m", "fdspec", "explore", str(place / "b.nc"), "--no-browser"]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-    try:
-        assert process.stdout is not None
-        yield process.stdout.readline().split()[0]
-    finally:
-        process.kill()
-        process.communicate()
+    with served(place, "b.nc") as found:
+        yield found
 
 
 def profile(cube: xr.Dataset, name: str, building: str, slip: float, stiffness: float) -> np.ndarray:

@@ -1,8 +1,6 @@
 """Two cubes beside each other: linked controls, one scale of colours, histories of each cube's own frames."""
 
 import re
-import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -13,7 +11,7 @@ import xarray as xr
 import fdspec
 from fdspec import store
 from fdspec.units import G
-from tests.browser.conftest import Watched
+from tests.browser.conftest import Watched, served
 from tests.browser.test_page import drawn, slice_of, words
 from tests.explored import small_cube, unpack
 
@@ -30,14 +28,8 @@ def heavy() -> xr.Dataset:
 def both(folder: Path, heavy: xr.Dataset, address: str) -> Iterator[str]:
     """Serve the cube with the heavy one beside it; `address` has made the kernels."""
     store.save(heavy, folder / "heavy.nc")
-    command = [sys.executable, "-m", "fdspec", "explore", "cube.nc", "heavy.nc", "--no-browser"]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=folder)
-    try:
-        assert process.stdout is not None
-        yield process.stdout.readline().split()[0]
-    finally:
-        process.kill()
-        process.communicate()
+    with served(folder, "cube.nc", "heavy.nc") as found:
+        yield found
 
 
 def test_maps_of_both_cubes_share_controls_and_colours(
