@@ -15,6 +15,7 @@ import math
 
 from fdspec.compiler.options import inner
 from fdspec.kernels.mathematics.oscillator import series_order
+from fdspec.kernels.mathematics.quadrature import series_area
 
 RADIANS = 1.0
 """Longest step in radians of the fastest rate: 20 terms then end below rounding."""
@@ -78,25 +79,14 @@ def slope_at(series, n, x):
 
 
 @inner
-def integral_to(series, n, x):
-    """Integral of the series from 0 to x."""
+def product_of_slopes(one, other):
+    """Integral over a whole step of the product of the slopes of two series of TERMS coefficients."""
     total = 0.0
-    for j in range(n - 1, -1, -1):
-        total = total * x + series[j] / (j + 1)
-    return total * x
-
-
-@inner
-def square_of_slope(one, other, n, x):
-    """Integral from 0 to x of the product of the slopes of two series."""
-    total = 0.0
-    power = x
-    for order in range(2 * n - 3):
+    for n in range(2 * TERMS - 3):
         term = 0.0
-        for j in range(max(0, order - n + 2), min(order, n - 2) + 1):
-            term += (j + 1) * one[j + 1] * (order - j + 1) * other[order - j + 1]
-        total += term * power / (order + 1)
-        power *= x
+        for j in range(max(0, n - TERMS + 2), min(n, TERMS - 2) + 1):
+            term += (j + 1) * one[j + 1] * (n - j + 1) * other[n - j + 1]
+        total += term / (n + 1)
     return total
 
 
@@ -111,10 +101,10 @@ def fill_mode(c, k, h, units, mode):
     for i in range(4):
         mode[U_ROW + i] = sum_at(units[i], TERMS, 1.0)
         mode[V_ROW + i] = slope_at(units[i], TERMS, 1.0) / h
-        mode[INTEGRAL_ROW + i] = h * integral_to(units[i], TERMS, 1.0)
+        mode[INTEGRAL_ROW + i] = series_area(units[i], TERMS - 1, h, 1.0)
         for j in range(i, 4):
             weight = 1.0 if i == j else 2.0
-            mode[at] = weight * square_of_slope(units[i], units[j], TERMS, 1.0) / h
+            mode[at] = weight * product_of_slopes(units[i], units[j]) / h
             at += 1
     # Bounds on |u''| and |u'''| of a step by its two ends, see `reach`.
     sixth = h * h / 8.0
