@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import fdspec
+from fdspec.cli.sweep import sweep
 from fdspec.errors import RecordError
 from fdspec.records import catalogue
 from fdspec.records.suites import SUITES, suite_names
@@ -55,6 +56,11 @@ def test_without_the_package_the_extra_is_named():
 def test_records_that_are_not_in_the_suites(name):
     with pytest.raises(RecordError, match="there is no record"):
         fdspec.load_record(name)
+
+
+def test_the_option_offers_every_suite():
+    (option,) = [one for one in sweep.params if one.name == "record_suite"]
+    assert list(option.type.choices) == list(SUITES)
 
 
 def test_an_unknown_suite():
