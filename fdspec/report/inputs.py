@@ -81,7 +81,7 @@ def _criterion(choice: xr.Dataset) -> list[tuple[str, str]]:
         return [("What is made least", index_name(choice)), ("Nearly as good", near)]
     levels = ", ".join(f"{level:g}" for level in asked["levels"])
     limits = [
-        (f"Limit of {SHOWN[name].words}", f"{rounded(limit * SHOWN[name].scale)} {SHOWN[name].unit}")
+        (f"Limit of {SHOWN[name].words}", SHOWN[name].written(limit))
         for name, limit in asked["limits"].items()
     ]
     least = ("What is made least", "slip force within all limits")

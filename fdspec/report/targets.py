@@ -19,6 +19,10 @@ class Shown(NamedTuple):
     unit: str
     scale: float
 
+    def written(self, value: float) -> str:
+        """Write a demand, given in SI units, with its unit."""
+        return f"{rounded(value * self.scale)} {self.unit}"
+
 
 SHOWN: Final = {
     "acceleration": Shown("peak acceleration", "g", 1.0 / G),
@@ -49,8 +53,7 @@ def missed(target: Target) -> str:
     shown = SHOWN[worst.name]
     return (
         f"{shown.words} at level {worst.level:g} is over its limit by {worst.value / worst.limit - 1.0:.1%} "
-        f"at best, {rounded(worst.value * shown.scale)} {shown.unit} of {rounded(worst.limit * shown.scale)} "
-        f"{shown.unit}"
+        f"at best, {shown.written(worst.value)} of {shown.written(worst.limit)}"
     )
 
 
@@ -60,8 +63,8 @@ def limit_sentence(choice: xr.Dataset) -> str:
     if not target.met:
         return f"no slip force meets all: {missed(target)}"
     told = [
-        f"{SHOWN[one.name].words} {rounded(one.value * SHOWN[one.name].scale)} of "
-        f"{rounded(one.limit * SHOWN[one.name].scale)} {SHOWN[one.name].unit} at level {one.level:g}"
+        f"{SHOWN[one.name].words} {SHOWN[one.name].written(one.value)} of "
+        f"{SHOWN[one.name].written(one.limit)} at level {one.level:g}"
         for one in target.demands
     ]
     return f"all met: {'; '.join(told)}"
@@ -84,8 +87,8 @@ def limit_rows(target: Target) -> list[list[str]]:
         [
             f"{one.level:g}",
             SHOWN[one.name].words,
-            f"{rounded(one.value * SHOWN[one.name].scale)} {SHOWN[one.name].unit}",
-            f"{rounded(one.limit * SHOWN[one.name].scale)} {SHOWN[one.name].unit}",
+            SHOWN[one.name].written(one.value),
+            SHOWN[one.name].written(one.limit),
             f"{one.value / one.limit:.0%}",
         ]
         for one in target.demands
