@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 MANY = 100
 """Records; of more no table is shown."""
 
+AT_ONCE = 1_000_000
+"""Histories whose peaks are in memory at once."""
+
 LISTED = 20
 """Histories that did not end well and are shown one by one."""
 
@@ -90,14 +93,18 @@ def _profile_table(cube: xr.Dataset) -> list[str]:
 
 
 def _records_table(cube: xr.Dataset) -> str:
-    """Table of the records, read one by one: the cube may be larger than memory."""
+    """Table of the records, read a few at a time: the cube may be larger than memory."""
     wanted = cube[[name for name in ("peak_acceleration", "elastic_acceleration", "status") if name in cube]]
     explained = []
     if "intensity" in cube.dims:
         wanted = wanted.sel(intensity=1.0, method="nearest")
         explained.append(f"At intensity {wanted['intensity'].item():g}, as are the bests.")
-    tables = [_columns(wanted.isel(record=[k]).load()) for k in range(cube.sizes["record"])]
-    rows = [[cells[0] for _, cells in columns] for columns in tables]
+    several = max(1, AT_ONCE * cube.sizes["record"] // max(1, wanted["status"].size))
+    tables = [
+        _columns(wanted.isel(record=slice(k, k + several)).load())
+        for k in range(0, cube.sizes["record"], several)
+    ]
+    rows = [list(row) for columns in tables for row in zip(*(cells for _, cells in columns), strict=True)]
     explained.append("min, max: smallest and largest peak absolute acceleration of the floor.")
     if "elastic_acceleration" in cube:
         explained.append(

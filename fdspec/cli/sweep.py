@@ -123,13 +123,16 @@ def sweep(
         fdspec sweep --print-study > mine.toml
     """
     from fdspec.records.suites import suite_names
-    from fdspec.runs.building_study import read_study
     from fdspec.runs.studies import with_intensity
     from fdspec.runs.study import Study
     from fdspec.store import check_writable
 
     started = time.perf_counter()
-    study: AnyStudy = Study() if study_file is None else read_study(study_file)
+    study: AnyStudy = Study()
+    if study_file is not None:
+        from fdspec.runs.building_study import read_study
+
+        study = read_study(study_file)
     if records or record_suite:
         chosen = named_records(records, units, dt, channel) if records else ()
         if record_suite:

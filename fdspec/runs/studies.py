@@ -1,4 +1,7 @@
-"""What is done with a study of either kind, of single-storey frames or of buildings."""
+"""What is done with a study of either kind, of single-storey frames or of buildings.
+
+What buildings need is imported where one is met: a study of frames starts without it.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +11,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import fdspec.runs.sweep as of_frames
-import fdspec.runs.sweep_buildings as of_buildings
 from fdspec.model.grid import GRID_FIELDS
 from fdspec.model.motion import GroundMotion
-from fdspec.runs import building_cube
-from fdspec.runs.building_study import BuildingStudy
 from fdspec.runs.cost import seconds_of_sweep
 from fdspec.runs.cube import chosen
 from fdspec.runs.pilot import measured as cost_of
@@ -23,8 +23,11 @@ from fdspec.scheduling.task import cores
 if TYPE_CHECKING:
     import xarray as xr
 
+    from fdspec.runs.building_study import BuildingStudy
+
+    AnyStudy = Study | BuildingStudy
+
 Motions = Sequence[GroundMotion]
-AnyStudy = Study | BuildingStudy
 
 
 class Planned(NamedTuple):
@@ -46,6 +49,8 @@ def compute(study: AnyStudy, motions: Motions, **how: Any) -> xr.Dataset:
     what |= {"free_vibration": study.after.free_vibration, "at_rest": study.after.at_rest}
     if isinstance(study, Study):
         return of_frames.sweep(motions, **{name: getattr(grid, name) for name in GRID_FIELDS}, **what)
+    import fdspec.runs.sweep_buildings as of_buildings
+
     return of_buildings.sweep_buildings(
         motions,
         dict(zip(study.grid.names, study.grid.buildings, strict=True)),
@@ -62,6 +67,8 @@ def outputs_of(study: AnyStudy) -> tuple[str, ...]:
         usual = of_frames.usual_outputs(study.grid)
         known = (*usual, *of_frames.ON_REQUEST)
     else:
+        from fdspec.runs import building_cube
+
         usual, known = (
             building_cube.usual_outputs(study.grid, study.after),
             building_cube.known_outputs(study.grid),
@@ -75,6 +82,8 @@ def parameters(study: AnyStudy) -> dict[str, object]:
     if isinstance(study, Study):
         told = {**study.grid.parameters, "certify": study.certify, "outputs": list(outputs)}
     else:
+        from fdspec.runs import building_cube
+
         told = building_cube.parameters_of(study.grid, outputs, study.certify)
     return {**told, **study.after.parameters}
 
@@ -91,10 +100,14 @@ def rough_seconds(study: AnyStudy, motions: Motions) -> float:
     times = study.after.times(motions)
     if isinstance(study, Study):
         return times * sum(seconds_of_sweep(study.grid, motions, study.certify))
+    import fdspec.runs.sweep_buildings as of_buildings
+
     return times * of_buildings.rough_seconds(motions, study.grid)
 
 
 def _measured(study: BuildingStudy, motions: Motions) -> float:
+    import fdspec.runs.sweep_buildings as of_buildings
+
     return of_buildings.measured(motions, study.grid, study.certify, outputs_of(study))
 
 
@@ -111,6 +124,8 @@ def refuse_endless(study: AnyStudy, motions: Motions, store: str | os.PathLike[s
     if isinstance(study, Study):
         of_frames.refuse_endless(motions, study.grid, outputs, rough_seconds(study, motions), store)
     else:
+        import fdspec.runs.sweep_buildings as of_buildings
+
         of_buildings.refuse_endless(motions, study.grid, outputs, store)
 
 
@@ -130,6 +145,8 @@ def planned(study: AnyStudy, motions: Motions) -> Planned:
             cost.transitions_per_sample * samples / len(motions),
             sum(of_frames.bytes_of(motions, study.grid, outputs).values()),
         )
+    from fdspec.runs import building_cube
+
     intensity = study.grid.intensity
     levels = () if intensity is None else (("intensities", intensity.size),)
     n_b, n_k, n_s = study.grid.shape

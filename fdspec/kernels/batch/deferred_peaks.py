@@ -163,10 +163,9 @@ def settle_brace(p, lane, plan, braces, room, search):
 
 @inner
 def keep_brace(p, lane, plan, braces, ground, rate, room, search):
-    """Keep the quiet step that a lane has just taken, if the brace force may have its peak there."""
+    """Keep the quiet step that a lane has just taken, whose bound on the brace force passes its peak."""
+    seldom()
     bound = at(p, CREST_B, lane)
-    if bound <= at(p, PEAK_BRACE, lane):
-        return
     settle_brace(p, lane, plan, braces, room, search)
     if bound <= at(p, PEAK_BRACE, lane):
         return

@@ -23,9 +23,11 @@ from fdspec.kernels.batch.deferred_peaks import (
     settle_crests,
 )
 from fdspec.kernels.batch.layout import (
+    CREST_B,
     HELD,
     N_ROWS,
     WIDTH,
+    at,
     is_brace_calm,
     is_calm,
     put_lane,
@@ -35,13 +37,13 @@ from fdspec.kernels.batch.layout import (
     take_state,
 )
 from fdspec.kernels.batch.shelf import Stride, put_plan, take_plan
-from fdspec.kernels.batch.uneventful import loss_lanes, slip_lanes, stick_lanes
+from fdspec.kernels.batch.uneventful import slip_lanes, slip_losses, stick_lanes, stick_losses
 from fdspec.kernels.mathematics.oscillator import TERMS, step_map
 from fdspec.kernels.storey.constants import plan, steps_per_sample
 from fdspec.kernels.storey.energy import N_FORMS, put_losses
 from fdspec.kernels.storey.history import finish, settle_at_rest
 from fdspec.kernels.storey.step import come_to_rest, walk
-from fdspec.kernels.types import N_STATE, OK, PHASE, STATUS, STICK, Storey
+from fdspec.kernels.types import N_STATE, OK, PEAK_BRACE, PHASE, STATUS, STICK, Storey
 
 LINE: Final = 8
 """Numbers in a line of the cache: a vector of 512 bits that begins elsewhere lies across two of them."""
@@ -128,15 +130,18 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, free_steps, at_r
                 walks, keeps = slip_lanes(p, step, start, rate)
                 to_walk |= walks
                 to_keep |= keeps
-            if certify:
-                loss_lanes(p, start, rate, to_walk)
+            if certify and slipping < WIDTH:
+                stick_losses(p, start, rate, to_walk)
+            if certify and slipping > 0:
+                slip_losses(p, start, rate, to_walk)
             busy = (to_walk | to_keep) & real
             while busy != 0:
                 lane = lowest(busy)
                 busy &= busy - 1
                 if to_keep >> lane & 1:
                     keep_crests(p, lane, take_plan(shelf, lane), crests, start, rate, floor, search)
-                    keep_brace(p, lane, take_plan(shelf, lane), braces, start, rate, floor, search)
+                    if at(p, CREST_B, lane) > at(p, PEAK_BRACE, lane):
+                        keep_brace(p, lane, take_plan(shelf, lane), braces, start, rate, floor, search)
                 else:
                     take_state(p, lane, s)
                     if certify:

@@ -151,8 +151,8 @@ def stick_lanes(p, h, ground, rate):
         r1 = fma(hold_u, u1, fma(hold_v, v1, -locked))
         rise0 = third * fma(hold_u, v, hold_v * a0)
         rise1 = third * fma(hold_u, v1, hold_v * a1)
-        held = fma(swing, at(p, HOLD_TAIL, lane), max(abs(r0 + rise0), abs(r1 - rise1)))
-        held = max(max(abs(r0), abs(r1)), held)
+        inside = fma(swing, at(p, HOLD_TAIL, lane), max(abs(r0 + rise0), abs(r1 - rise1)))
+        held = max(max(abs(r0), abs(r1)), inside)
 
         top_a = max(at(p, PEAK_ACCELERATION, lane), abs(q1))
         top_s = max(at(p, PEAK_SHEAR, lane), at(p, MASS, lane) * abs(q1))
@@ -167,13 +167,8 @@ def stick_lanes(p, h, ground, rate):
         crest_q = fma(swing, at(p, S_TAIL_Q, lane), crest_q)
         # The brace carries the reaction less the inertia of its own mass.
         m_b = at(p, BRACE_MASS, lane)
-        f1 = fma(-m_b, q1, r1)
-        crest_b = max(
-            abs(fma(m_b, fma(third, fall0, -q0), r0 + rise0)),
-            abs(fma(-m_b, fma(third, fall1, q1), r1 - rise1)),
-        )
-        crest_b = fma(swing, fma(m_b, at(p, S_TAIL_Q, lane), at(p, HOLD_TAIL, lane)), crest_b)
-        top_b = max(at(p, PEAK_BRACE, lane), abs(f1))
+        crest_b = fma(m_b, crest_q, inside)
+        top_b = max(at(p, PEAK_BRACE, lane), abs(fma(-m_b, q1, r1)))
         sticks = at(p, PHASE, lane) == 0.0
         alert = (held >= at(p, LIMIT, lane)) | (at(p, TOUCHING, lane) != 0.0)
         peak = (crest_q > min(top_a, top_s * at(p, LIGHT, lane))) | (crest_u > top_u) | (crest_v > top_v)
@@ -267,8 +262,9 @@ def slip_lanes(p, h, ground, rate):
         m_b = at(p, BRACE_MASS, lane)
         s0 = fma(m, q0, m_b * (c0 + ground))
         s1 = fma(m, q1, m_b * (c1 + ground_end))
-        rise0 = third * fma(m, fall0, m_b * fma(g_b, c0, w2_b * e))
-        rise1 = third * fma(m, fall1, m_b * fma(g_b, c1, w2_b * e1))
+        drop0, drop1 = fma(g_b, c0, w2_b * e), fma(g_b, c1, w2_b * e1)
+        rise0 = third * fma(m, fall0, m_b * drop0)
+        rise1 = third * fma(m, fall1, m_b * drop1)
         inside = max(abs(s0 - rise0), abs(s1 + rise1))
         inside += fma(m * swing, at(p, F_TAIL_Q, lane), m_b * ring * at(p, B_TAIL_Q, lane))
         crest_s = m_b * fma(ring, at(p, B_OMEGA, lane), shake)
@@ -278,9 +274,7 @@ def slip_lanes(p, h, ground, rate):
         # The brace carries friction less its inertia: that of its quasi-static motion, and of its ringing.
         f0 = fma(g_b, e, w2_b * d)
         f1 = fma(g_b, e1, w2_b * d1)
-        inside = max(
-            abs(fma(third, fma(w2_b, e, g_b * c0), f0)), abs(fma(-third, fma(w2_b, e1, g_b * c1), f1))
-        )
+        inside = max(abs(fma(third, drop0, f0)), abs(fma(-third, drop1, f1)))
         inside = fma(ring, at(p, B_TAIL_Q, lane), inside)
         crest_b = fma(ring, at(p, B_OMEGA, lane), max(abs(b0), abs(fma(-b1, h, b0))))
         crest_b = m_b * min(crest_b, max(max(abs(f0), abs(f1)), inside))
@@ -319,16 +313,23 @@ def slip_lanes(p, h, ground, rate):
 
 
 @inner
-def loss_lanes(p, ground, rate, to_walk):
-    """Add the viscous work of this step to all lanes but those that are to walk it."""
+def stick_losses(p, ground, rate, to_walk):
+    """Add the viscous work of this step to the sticking lanes but those that are to walk it."""
+    wide()
+    for lane in range(WIDTH):
+        p0 = at(p, LIFT, lane) * at(p, OFFSET, lane) - ground
+        loss = form(p, S_LOSS, lane, at(p, FROM_U, lane), at(p, FROM_V, lane), p0, -rate)
+        taken = (at(p, PHASE, lane) == 0.0) & (to_walk >> lane & 1 == 0)
+        p[VISCOUS * WIDTH + lane] += at(p, S_DAMP, lane) * loss if taken else 0.0
+
+
+@inner
+def slip_losses(p, ground, rate, to_walk):
+    """The same for the slipping lanes."""
     wide()
     for lane in range(WIDTH):
         sign = at(p, PHASE, lane)
-        u = at(p, FROM_U, lane)
-        v = at(p, FROM_V, lane)
-        p0 = at(p, LIFT, lane) * at(p, OFFSET, lane) - ground
-        f0 = sliding_force(-sign, at(p, PUSH_FLOOR, lane)) - ground
-        one = at(p, S_DAMP, lane) * form(p, S_LOSS, lane, u, v, p0, -rate)
-        two = at(p, F_DAMP, lane) * form(p, F_LOSS, lane, u, v, f0, -rate)
-        done = two if sign != 0.0 else one
-        p[VISCOUS * WIDTH + lane] += done if to_walk >> lane & 1 == 0 else 0.0
+        p0 = sliding_force(-sign, at(p, PUSH_FLOOR, lane)) - ground
+        loss = form(p, F_LOSS, lane, at(p, FROM_U, lane), at(p, FROM_V, lane), p0, -rate)
+        taken = (sign != 0.0) & (to_walk >> lane & 1 == 0)
+        p[VISCOUS * WIDTH + lane] += at(p, F_DAMP, lane) * loss if taken else 0.0

@@ -312,21 +312,22 @@ def walk(
 
         if h > 0.0:
             calm = calm and not happens
-            brace_calm = rings_below or (brace_calm and not happens)
-            if phase == STICK and not brace_calm:  # before the others, which shorten the series
+            brace_calm = brace_calm and not happens
+            if phase == STICK and not (calm and brace_calm):
+                # The brace's first: it leaves the series as it is.  What both bounds need is worked out once.
                 strongest = stick_brace_peak(
                     plan, floor, search, order, share, motion, end, force, offset, h, strongest
                 )
-            elif not brace_calm:
-                strongest = slip_brace_peak(
-                    plan, brace, search, order, share, motion, end, force, h, strongest
-                )
-            if phase == STICK and not calm:
                 peaks = stick_peaks(plan, floor, search, order, share, motion, end, force, offset, h, peaks)
-            elif not calm:
-                peaks = slip_peaks(
-                    plan, floor, brace, search, order, share, motion, end, force, phase, h, peaks
-                )
+            elif phase != STICK:
+                if not (brace_calm or rings_below):
+                    strongest = slip_brace_peak(
+                        plan, brace, search, order, share, motion, end, force, h, strongest
+                    )
+                if not calm:
+                    peaks = slip_peaks(
+                        plan, floor, brace, search, order, share, motion, end, force, phase, h, peaks
+                    )
             motion = end
         touching = STICK
         if happens or phase * (motion.v - motion.e) > UNRESOLVED * (abs(motion.v) + abs(motion.e)):
