@@ -13,7 +13,6 @@ import numpy as np
 
 from fdspec.errors import InvalidInput, RecordError
 from fdspec.model.motion import GroundMotion
-from fdspec.records import text as rows_of_text
 from fdspec.records.channel import Channel
 from fdspec.records.formats import BINARY_FORMATS, FORMATS
 from fdspec.records.given import Given, given
@@ -175,6 +174,10 @@ def _read_text(text: TextFile, options: Given) -> tuple[str, tuple[Channel, ...]
             if known.recognises(text):
                 text.take(None, f"format: {known.name}")
                 return known.name, known.read(text)
+    from fdspec.records import (
+        text as rows_of_text,
+    )  # its patterns take longer to compile than a record to read
+
     if options.skip is not None or rows_of_text.recognises(text):
         text.take(None, f"format: {rows_of_text.NAME}")
         return rows_of_text.NAME, rows_of_text.read(text, options)
