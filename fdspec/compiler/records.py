@@ -19,13 +19,6 @@ def size_of(cls: Any) -> int:
     return sum(1 if hints[name] is float else size_of(hints[name]) for name in cls._fields)
 
 
-def place_of(cls: Any, field: str) -> int:
-    """Return the place of a field's first number in the row."""
-    hints = get_type_hints(cls)
-    before = cls._fields[: cls._fields.index(field)]
-    return sum(1 if hints[name] is float else size_of(hints[name]) for name in before)
-
-
 def _type_of(cls: Any) -> types.Type:
     """Return what numba takes a record for: a uniform tuple where all fields are of one type."""
     hints = get_type_hints(cls)

@@ -15,8 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fdspec.kernels.batch.entry import prepare, run_lanes
-from fdspec.kernels.batch.layout import WIDTH
-from fdspec.kernels.batch.shelf import N_SHELF, N_STRIDE
+from fdspec.kernels.batch.layout import N_PLAN, N_STRIDE, WIDTH
 from fdspec.kernels.storey.constants import RADIANS
 from fdspec.kernels.storey.energy import N_FORMS
 from fdspec.kernels.storey.history import RESULTS
@@ -71,15 +70,15 @@ def _integrate(
     """Integrate storeys (m, 8) in lanes, alike ones together; return results and the reactions they reach."""
     size = storeys.shape[0]
     parts = np.empty(size, np.int64)
-    shelf, forms, stride = np.empty((size, N_SHELF)), np.empty((size, N_FORMS)), np.empty((size, N_STRIDE))
-    prepare(np.ascontiguousarray(storeys), motion.dt, radians, certify, parts, shelf, forms, stride)
+    plans, forms, stride = np.empty((size, N_PLAN)), np.empty((size, N_FORMS)), np.empty((size, N_STRIDE))
+    prepare(np.ascontiguousarray(storeys), motion.dt, radians, certify, parts, plans, forms, stride)
     results, held = np.empty((size, len(RESULTS))), np.empty(size)
     order = np.lexsort((np.broadcast_to(likeness, size), parts))
     for group in _groups(parts[order]):
         lanes = order[group]
         out, reached = np.empty((lanes.size, len(RESULTS))), np.empty(lanes.size)
         run_lanes(
-            shelf[lanes],
+            plans[lanes],
             forms[lanes],
             stride[lanes],
             motion.acceleration,

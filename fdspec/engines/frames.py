@@ -58,22 +58,22 @@ def peaks_of_frames(
 
 
 def _parts(frame: Frame) -> tuple[bool, ...]:
-    """Tell which parts a frame has: dense matrices; dashpots, ties to the ground, loose dashpots."""
+    """Tell which parts a frame has: dense matrices; dashpots, ties to the ground, dashpots of braces."""
     rows = frame.properties
-    loose = bool(rows[BRACE_DAMPING].any())
+    damped_braces = bool(rows[BRACE_DAMPING].any())
     return (
         frame.dense_stiffness.size > 0,
         frame.dense_damping.size > 0,
-        loose or bool(rows[STOREY_DAMPING].any()),
+        damped_braces or bool(rows[STOREY_DAMPING].any()),
         bool(rows[[GROUND_STIFFNESS, GROUND_DAMPING]].any()),
-        loose,
+        damped_braces,
     )
 
 
 def _side_by_side(
     frames: Sequence[Frame], parts: tuple[bool, ...], motion: GroundMotion, certify: bool
 ) -> tuple[FloatArray, FloatArray]:
-    _, _, damped, grounded, loose = parts
+    _, _, damped, grounded, damped_braces = parts
     properties = np.stack([frame.properties for frame in frames])
     which: dict[tuple[int, int], int] = {}
     matrices: list[tuple[NDArray[np.float64], NDArray[np.float64]]] = []
@@ -93,7 +93,7 @@ def _side_by_side(
         np.stack([damping for _, damping in matrices]),
         damped,
         grounded,
-        loose,
+        damped_braces,
         motion.acceleration,
         motion.dt,
         certify,

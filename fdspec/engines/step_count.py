@@ -36,8 +36,8 @@ def fastest_rate(mass: ArrayLike, damping: ArrayLike, stiffness: ArrayLike) -> F
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         half = 0.5 * c / m
         massive = half + np.sqrt(half * half + k / m)
-        loose = np.where(c > 0.0, k / c, 0.0)
-    return np.asarray(np.where(m > 0.0, massive, loose))
+        massless = np.where(c > 0.0, k / c, 0.0)
+    return np.asarray(np.where(m > 0.0, massive, massless))
 
 
 def steps_of_storeys(storeys: ArrayLike, dt: float, record_steps: int) -> FloatArray:

@@ -96,7 +96,7 @@ D: Final = 2
 E: Final = 3
 OFFSET: Final = 4
 PHASE: Final = 5
-KICK: Final = 6
+ONSET: Final = 6
 TOUCHING: Final = 7
 PEAK_ACCELERATION: Final = 8
 PEAK_DISPLACEMENT: Final = 9
@@ -119,5 +119,5 @@ segment begins (sliding acceleration of a new slip, side at which the reaction s
 peaks; work of the ground, of the dampers, of releases; u - d where the slip began, slip travel before it;
 counts; status; energy at the start; largest slip offset where slip began or stopped; largest brace force."""
 
-NO_KICK: Final = -1.0
-"""KICK where no slip begins with the next segment."""
+NO_ONSET: Final = -1.0
+"""ONSET where no slip begins with the next segment."""

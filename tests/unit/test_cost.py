@@ -20,7 +20,7 @@ from tests.unit.test_sweep import record
 
 def test_steps_are_those_of_the_kernels() -> None:
     from fdspec.kernels.batch.entry import prepare
-    from fdspec.kernels.batch.shelf import N_SHELF, N_STRIDE
+    from fdspec.kernels.batch.layout import N_PLAN, N_STRIDE
     from fdspec.kernels.storey.constants import RADIANS
     from fdspec.kernels.storey.energy import N_FORMS
 
@@ -29,8 +29,8 @@ def test_steps_are_those_of_the_kernels() -> None:
     storeys = np.hstack([frames_of(grid, columns), np.ones((420, 2))])
     for dt in (0.002, 0.01, 0.05):
         steps = np.empty(420, np.int64)
-        shelf, forms, stride = (np.empty((420, n)) for n in (N_SHELF, N_FORMS, N_STRIDE))
-        prepare(storeys, dt, RADIANS, True, steps, shelf, forms, stride)
+        plans, forms, stride = (np.empty((420, n)) for n in (N_PLAN, N_FORMS, N_STRIDE))
+        prepare(storeys, dt, RADIANS, True, steps, plans, forms, stride)
         np.testing.assert_array_equal(steps_per_sample(grid, dt), steps.reshape(7, 60))
 
 

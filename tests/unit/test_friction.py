@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from fdspec.kernels.friction import GOES_ON, phase_after_stop, reaction, sliding_kick
+from fdspec.kernels.friction import GOES_ON, onset_acceleration, phase_after_stop, reaction
 from fdspec.kernels.types import STICK, Storey
 
 STOREY = Storey(20e3, 3e4, 3e6, 50.0, 20.0, 12e6, 1e5, 8e4)
@@ -35,7 +35,7 @@ def test_reaction_keeps_one_acceleration() -> None:
     assert floor == pytest.approx(brace, rel=1e-12)
 
 
-def test_sliding_kick() -> None:
-    assert sliding_kick(STOREY, 1e5) == pytest.approx(2e4 * (1 / 20e3 + 1 / 50.0))
-    assert sliding_kick(STOREY, -1e5) == sliding_kick(STOREY, 1e5)
-    assert sliding_kick(STOREY._replace(brace_mass=0.0), 1e5) == 0.0
+def test_onset_acceleration() -> None:
+    assert onset_acceleration(STOREY, 1e5) == pytest.approx(2e4 * (1 / 20e3 + 1 / 50.0))
+    assert onset_acceleration(STOREY, -1e5) == onset_acceleration(STOREY, 1e5)
+    assert onset_acceleration(STOREY._replace(brace_mass=0.0), 1e5) == 0.0

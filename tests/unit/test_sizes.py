@@ -27,7 +27,7 @@ LONG = {
     "kernels/bilinear/history.py history": TIME_LOOP,
     "kernels/frame/history.py history": TIME_LOOP,
     "kernels/frame_batch/entry.py run": TIME_LOOP,
-    "kernels/storey/step.py walk": TIME_LOOP,
+    "kernels/storey/step.py take_step": TIME_LOOP,
 }
 MANY_ARGUMENTS = {
     "choice/pretension.py best_pretension": PUBLIC,

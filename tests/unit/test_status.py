@@ -8,7 +8,7 @@ import pytest
 import fdspec
 from fdspec.errors import IntegrationError
 from fdspec.kernels.mathematics.oscillator import TERMS
-from fdspec.kernels.storey import step as walking
+from fdspec.kernels.storey import step as stepping
 from fdspec.kernels.storey.constants import RADIANS, plan
 from fdspec.kernels.storey.output import TRACES
 from fdspec.kernels.types import (
@@ -46,18 +46,18 @@ def test_simulate_raises_it(monstrous: fdspec.GroundMotion, storeys: int) -> Non
 
 def test_a_history_without_end_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     """The same step as compiled, uncompiled and with a cap of three changes of phase."""
-    monkeypatch.setattr(walking, "TRANSITION_CAP", 3)
-    walk = getattr(walking.walk, "py_func", walking.walk)
+    monkeypatch.setattr(stepping, "TRANSITION_CAP", 3)
+    take_step = getattr(stepping.take_step, "py_func", stepping.take_step)
     scheme = plan(Storey(20e3, 2.5e4, 3.2e6, 50.0, 0.0, 12.6e6, 5e3, 5e3), 0.01, RADIANS)
     s = np.empty(N_STATE)
     series = [np.empty(TERMS) for _ in range(3)]
-    walking.begin(scheme, Motion(0.0, 0.0, 0.0, 0.0), s)
+    stepping.begin(scheme, Motion(0.0, 0.0, 0.0, 0.0), s)
     none = np.empty(0), np.empty(0, np.int64), np.empty((0, len(TRACES)))
     for k in range(200):
         ground = 3.0 * np.sin(0.13 * np.array([k, k + 1.0]))
         rate = (ground[1] - ground[0]) / 0.01
         flags = False, False, False
-        walk(scheme, np.empty(0), s, 0.01 * k, ground[0], rate, *flags, *series, *none, 0.0, 0, 0.0)
+        take_step(scheme, np.empty(0), s, 0.01 * k, ground[0], rate, *flags, *series, *none, 0.0, 0, 0.0)
         if s[STATUS] != OK:
             break
     assert s[STATUS] == TRANSITION_CAP_REACHED

@@ -1,4 +1,4 @@
-"""Extrema between the ends of quiet steps, looked at only when it is clear that they matter.
+"""Extrema between the ends of uneventful steps, looked at only when it is clear that they matter.
 
 While a history grows, each of its turns may pass the peak so far, and most are passed by the next.  So
 a step whose bounds leave room for a new peak is kept, one for each quantity of a lane, until either
@@ -12,10 +12,10 @@ import numpy as np
 
 from fdspec.compiler.options import inner, seldom
 from fdspec.kernels.batch.layout import (
-    CREST_B,
-    CREST_Q,
-    CREST_U,
-    CREST_V,
+    BOUND_B,
+    BOUND_Q,
+    BOUND_U,
+    BOUND_V,
     FROM_D,
     FROM_E,
     FROM_U,
@@ -45,11 +45,11 @@ from fdspec.kernels.types import (
     V,
 )
 
-QUANTITIES = np.array([CREST_Q, CREST_U, CREST_V])
+QUANTITIES = np.array([BOUND_Q, BOUND_U, BOUND_V])
 """Rows of the bounds: acceleration (and base shear, its multiple while sticking), displacement, velocity."""
 
 BOUND, SLIPS, START_U, START_V, STOP_U, STOP_V, BASE, GROUND, RATE = range(9)
-N_CREST = 9
+N_DEFERRED = 9
 """Numbers of a kept step: bound of its quantity, whether it slips, motion at both ends, forces."""
 
 
@@ -68,7 +68,7 @@ def least_peak(p, quantity, lane, slips, mass):
 
 
 @inner
-def settle(p, lane, plan, crest, floor, search):
+def search_deferred(p, lane, plan, kept, floor, search):
     """Search a kept step and put the lane's peaks right."""
     peaks = Peaks(
         at(p, PEAK_ACCELERATION, lane),
@@ -77,19 +77,19 @@ def settle(p, lane, plan, crest, floor, search):
         at(p, PEAK_SHEAR, lane),
     )
     branch, mass = plan.stick, plan.mass
-    if crest[SLIPS] != 0.0:
+    if kept[SLIPS] != 0.0:
         branch, mass = plan.floor, 0.0
     peaks = floor_peaks(
         branch,
-        crest[BASE],
+        kept[BASE],
         mass,
         floor,
         search,
         series_order(branch.rate * plan.step),
         0.0,
-        Motion(crest[START_U], crest[START_V], 0.0, 0.0),
-        Motion(crest[STOP_U], crest[STOP_V], 0.0, 0.0),
-        Force(crest[BASE] - crest[GROUND], -crest[RATE], 0.0, 0.0),
+        Motion(kept[START_U], kept[START_V], 0.0, 0.0),
+        Motion(kept[STOP_U], kept[STOP_V], 0.0, 0.0),
+        Force(kept[BASE] - kept[GROUND], -kept[RATE], 0.0, 0.0),
         plan.step,
         peaks,
     )
@@ -97,51 +97,51 @@ def settle(p, lane, plan, crest, floor, search):
     p[PEAK_DISPLACEMENT * WIDTH + lane] = peaks.displacement
     p[PEAK_VELOCITY * WIDTH + lane] = peaks.velocity
     p[PEAK_SHEAR * WIDTH + lane] = peaks.shear
-    crest[BOUND] = 0.0
+    kept[BOUND] = 0.0
 
 
 @inner
-def keep_crests(p, lane, plan, crests, ground, rate, floor, search):
-    """Keep the quiet step that a lane has just taken for each quantity whose peak it may hold."""
+def defer_peaks(p, lane, plan, deferred, ground, rate, floor, search):
+    """Keep the uneventful step that a lane has just taken for each quantity whose peak it may hold."""
     phase = at(p, PHASE, lane)
     slips = 0.0 if phase == STICK else 1.0
     for quantity in range(3):
         bound = at(p, QUANTITIES[quantity], lane)
         if bound <= least_peak(p, quantity, lane, slips, plan.mass):
             continue
-        crest = crests[lane, quantity]
-        if crest[BOUND] > least_peak(p, quantity, lane, crest[SLIPS], plan.mass):
-            settle(p, lane, plan, crest, floor, search)
+        kept = deferred[lane, quantity]
+        if kept[BOUND] > least_peak(p, quantity, lane, kept[SLIPS], plan.mass):
+            search_deferred(p, lane, plan, kept, floor, search)
             if bound <= least_peak(p, quantity, lane, slips, plan.mass):
                 continue
-        crest[BOUND] = bound
-        crest[SLIPS] = slips
-        crest[START_U] = at(p, FROM_U, lane)
-        crest[START_V] = at(p, FROM_V, lane)
-        crest[STOP_U] = at(p, U, lane)
-        crest[STOP_V] = at(p, V, lane)
+        kept[BOUND] = bound
+        kept[SLIPS] = slips
+        kept[START_U] = at(p, FROM_U, lane)
+        kept[START_V] = at(p, FROM_V, lane)
+        kept[STOP_U] = at(p, U, lane)
+        kept[STOP_V] = at(p, V, lane)
         if phase == STICK:
-            crest[BASE] = at(p, LIFT, lane) * at(p, OFFSET, lane)
+            kept[BASE] = at(p, LIFT, lane) * at(p, OFFSET, lane)
         else:
-            crest[BASE] = sliding_force(-phase, at(p, PUSH_FLOOR, lane))
-        crest[GROUND] = ground
-        crest[RATE] = rate
+            kept[BASE] = sliding_force(-phase, at(p, PUSH_FLOOR, lane))
+        kept[GROUND] = ground
+        kept[RATE] = rate
 
 
 @inner
-def settle_crests(p, lane, plan, crests, floor, search):
+def search_all_deferred(p, lane, plan, deferred, floor, search):
     """Search the kept steps that still matter at the end."""
     for quantity in range(3):
-        crest = crests[lane, quantity]
-        if crest[BOUND] > least_peak(p, quantity, lane, crest[SLIPS], plan.mass):
-            settle(p, lane, plan, crest, floor, search)
+        kept = deferred[lane, quantity]
+        if kept[BOUND] > least_peak(p, quantity, lane, kept[SLIPS], plan.mass):
+            search_deferred(p, lane, plan, kept, floor, search)
 
 
 @inner
-def settle_brace(p, lane, plan, braces, room, search):
+def search_deferred_brace(p, lane, plan, deferred_brace, room, search):
     """Search the step kept for the brace force, if it still matters."""
     seldom()
-    kept = braces[lane]
+    kept = deferred_brace[lane]
     if kept[BOUND] <= at(p, PEAK_BRACE, lane):
         return
     p[PEAK_BRACE * WIDTH + lane] = step_brace_peak(
@@ -162,15 +162,15 @@ def settle_brace(p, lane, plan, braces, room, search):
 
 
 @inner
-def keep_brace(p, lane, plan, braces, ground, rate, room, search):
-    """Keep the quiet step that a lane has just taken, whose bound on the brace force passes its peak."""
+def defer_brace_peak(p, lane, plan, deferred_brace, ground, rate, room, search):
+    """Keep the uneventful step that a lane has just taken, whose bound on the brace force passes its peak."""
     seldom()
-    bound = at(p, CREST_B, lane)
-    settle_brace(p, lane, plan, braces, room, search)
+    bound = at(p, BOUND_B, lane)
+    search_deferred_brace(p, lane, plan, deferred_brace, room, search)
     if bound <= at(p, PEAK_BRACE, lane):
         return
     phase = at(p, PHASE, lane)
-    kept = braces[lane]
+    kept = deferred_brace[lane]
     kept[BOUND] = bound
     kept[SLIPS] = phase
     kept[START_U] = at(p, FROM_U, lane) if phase == STICK else at(p, FROM_D, lane)

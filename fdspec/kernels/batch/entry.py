@@ -15,34 +15,34 @@ from fdspec.compiler.options import entry, float1d, float2d, ground1d, int1d, lo
 from fdspec.compiler.records import read, write
 from fdspec.kernels.batch.deferred_peaks import (
     N_BRACE,
-    N_CREST,
+    N_DEFERRED,
     QUANTITIES,
-    keep_brace,
-    keep_crests,
-    settle_brace,
-    settle_crests,
+    defer_brace_peak,
+    defer_peaks,
+    search_all_deferred,
+    search_deferred_brace,
 )
 from fdspec.kernels.batch.layout import (
-    CREST_B,
+    BOUND_B,
     HELD,
     N_ROWS,
     WIDTH,
+    Stride,
     at,
-    is_brace_calm,
-    is_calm,
+    has_no_new_brace_peak,
+    has_no_new_peak,
     put_lane,
     put_state,
     rest_lane,
     start_lane,
     take_state,
 )
-from fdspec.kernels.batch.shelf import Stride, put_plan, take_plan
 from fdspec.kernels.batch.uneventful import slip_lanes, slip_losses, stick_lanes, stick_losses
 from fdspec.kernels.mathematics.oscillator import TERMS, step_map
-from fdspec.kernels.storey.constants import plan, steps_per_sample
+from fdspec.kernels.storey.constants import Plan, plan, steps_per_sample
 from fdspec.kernels.storey.energy import N_FORMS, put_losses
 from fdspec.kernels.storey.history import finish, settle_at_rest
-from fdspec.kernels.storey.step import come_to_rest, walk
+from fdspec.kernels.storey.step import come_to_rest, take_step
 from fdspec.kernels.types import N_STATE, OK, PEAK_BRACE, PHASE, STATUS, STICK, Storey
 
 LINE: Final = 8
@@ -50,17 +50,17 @@ LINE: Final = 8
 
 
 @entry(types.void(float2d, types.float64, types.float64, types.boolean, int1d, float2d, float2d, float2d))
-def prepare(storeys, dt, radians, certify, parts, shelf, forms, stride):
+def prepare(storeys, dt, radians, certify, parts, plans, forms, stride):
     """Work out the constants of storeys (m, 8), rows of `Storey`.
 
-    Filled: parts (m,) steps a sample; shelf (m, N_SHELF); forms (m, N_FORMS), zeros unless certify;
+    Filled: parts (m,) steps a sample; plans (m, N_PLAN); forms (m, N_FORMS), zeros unless certify;
     stride (m, N_STRIDE).
     """
     for i in range(storeys.shape[0]):
         storey = read(Storey, storeys, i)
         parts[i] = steps_per_sample(storey, dt, radians)
         scheme = plan(storey, dt / parts[i], radians)
-        put_plan(shelf, i, scheme)
+        write(plans, i, scheme)
         floor_map = step_map(scheme.floor.g, scheme.floor.w2, scheme.step)
         write(stride, i, Stride(floor_map, step_map(scheme.brace.g, scheme.brace.w2, scheme.step)))
         forms[i] = 0.0
@@ -83,31 +83,31 @@ def prepare(storeys, dt, radians, certify, parts, shelf, forms, stride):
         float1d,
     )
 )
-def run_lanes(shelf, forms, stride, ground, dt, parts, certify, free_steps, at_rest, results, held):
+def run_lanes(plans, forms, stride, ground, dt, parts, certify, free_steps, at_rest, results, held):
     """Integrate up to WIDTH histories from rest.
 
-    shelf, forms, stride: their rows from `prepare`; parts: the steps a sample that all of them take.
+    plans, forms, stride: their rows from `prepare`; parts: the steps a sample that all of them take.
     certify: whether the balance of all energies is wanted.  free_steps: steps of dt with the ground at rest
     that follow; at_rest: whether each goes on from there until nothing can slip any more.
     Filled: results (count, len(RESULTS)); held (count,), the largest reaction (N) for which the bounds
     leave room while the storey never slips.
     """
-    count = shelf.shape[0]
+    count = plans.shape[0]
     room = np.zeros(N_ROWS * WIDTH + LINE)
     first = -(room.ctypes.data // room.itemsize) % LINE
     p = room[first : first + N_ROWS * WIDTH]
-    # One state and one row of losses for all lanes: a view of an array for each walk would count references.
+    # One state and one row of losses for all lanes: a view of an array for each step would count references.
     s, losses = np.zeros(N_STATE), np.zeros(N_FORMS)
     given_up = np.zeros((WIDTH, N_STATE))
-    crests = np.zeros((WIDTH, len(QUANTITIES), N_CREST))
-    braces = np.zeros((WIDTH, N_BRACE))
+    deferred = np.zeros((WIDTH, len(QUANTITIES), N_DEFERRED))
+    deferred_brace = np.zeros((WIDTH, N_BRACE))
     floor, brace, search = np.empty(TERMS), np.empty(TERMS), np.empty(TERMS)
     times, phases, traces = np.empty(0), np.empty(0, np.int64), np.empty((0, 0))
     slipping = 0
     real = (1 << count) - 1
     for lane in range(WIDTH):
         i = min(lane, count - 1)
-        put_lane(p, lane, take_plan(shelf, i), shelf[i], forms[i], stride[i], certify)
+        put_lane(p, lane, read(Plan, plans, i), read(Stride, stride, i), forms[i], certify)
         start_lane(p, lane)
         if lane >= count:
             rest_lane(p, lane)
@@ -122,42 +122,44 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, free_steps, at_r
             rate = (ground[i + 1] - a0) / dt
         for j in range(parts):
             start = a0 + rate * (j * step)
-            to_walk = 0
-            to_keep = 0
+            eventful = 0
+            to_defer = 0
             if slipping < WIDTH:
-                to_walk, to_keep = stick_lanes(p, step, start, rate)
+                eventful, to_defer = stick_lanes(p, step, start, rate)
             if slipping > 0:
-                walks, keeps = slip_lanes(p, step, start, rate)
-                to_walk |= walks
-                to_keep |= keeps
+                slipping_eventful, slipping_to_defer = slip_lanes(p, step, start, rate)
+                eventful |= slipping_eventful
+                to_defer |= slipping_to_defer
             if certify and slipping < WIDTH:
-                stick_losses(p, start, rate, to_walk)
+                stick_losses(p, start, rate, eventful)
             if certify and slipping > 0:
-                slip_losses(p, start, rate, to_walk)
-            busy = (to_walk | to_keep) & real
+                slip_losses(p, start, rate, eventful)
+            busy = (eventful | to_defer) & real
             while busy != 0:
                 lane = lowest(busy)
                 busy &= busy - 1
-                if to_keep >> lane & 1:
-                    keep_crests(p, lane, take_plan(shelf, lane), crests, start, rate, floor, search)
-                    if at(p, CREST_B, lane) > at(p, PEAK_BRACE, lane):
-                        keep_brace(p, lane, take_plan(shelf, lane), braces, start, rate, floor, search)
+                if to_defer >> lane & 1:
+                    defer_peaks(p, lane, read(Plan, plans, lane), deferred, start, rate, floor, search)
+                    if at(p, BOUND_B, lane) > at(p, PEAK_BRACE, lane):
+                        defer_brace_peak(
+                            p, lane, read(Plan, plans, lane), deferred_brace, start, rate, floor, search
+                        )
                 else:
                     take_state(p, lane, s)
                     if certify:
                         for k in range(N_FORMS):
                             losses[k] = forms[lane, k]
                     before = s[PHASE] != STICK
-                    walk(
-                        take_plan(shelf, lane),
+                    take_step(
+                        read(Plan, plans, lane),
                         losses,
                         s,
                         0.0,
                         start,
                         rate,
                         certify,
-                        is_calm(p, lane, s),
-                        is_brace_calm(p, lane, s),
+                        has_no_new_peak(p, lane, s),
+                        has_no_new_brace_peak(p, lane, s),
                         floor,
                         brace,
                         search,
@@ -177,8 +179,8 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, free_steps, at_r
                         after = False
                     slipping += (1 if after else 0) - (1 if before else 0)
     for lane in range(count):
-        settle_crests(p, lane, take_plan(shelf, lane), crests, floor, search)
-        settle_brace(p, lane, take_plan(shelf, lane), braces, floor, search)
+        search_all_deferred(p, lane, read(Plan, plans, lane), deferred, floor, search)
+        search_deferred_brace(p, lane, read(Plan, plans, lane), deferred_brace, floor, search)
         take_state(p, lane, s)
         if given_up[lane, STATUS] != OK:
             for row in range(N_STATE):
@@ -187,9 +189,19 @@ def run_lanes(shelf, forms, stride, ground, dt, parts, certify, free_steps, at_r
             for k in range(N_FORMS):
                 losses[k] = forms[lane, k]
             come_to_rest(
-                take_plan(shelf, lane), losses, s, parts, certify, floor, brace, search, times, phases, traces
+                read(Plan, plans, lane),
+                losses,
+                s,
+                parts,
+                certify,
+                floor,
+                brace,
+                search,
+                times,
+                phases,
+                traces,
             )
-        finish(take_plan(shelf, lane).storey, s, certify, results[lane])
+        finish(read(Plan, plans, lane).storey, s, certify, results[lane])
         if at_rest and s[STATUS] == OK:
-            settle_at_rest(take_plan(shelf, lane).storey, s, results[lane])
+            settle_at_rest(read(Plan, plans, lane).storey, s, results[lane])
         held[lane] = p[HELD * WIDTH + lane]

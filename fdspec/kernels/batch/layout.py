@@ -9,17 +9,19 @@ loads alone.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from fdspec.compiler.options import inlined, inner
-from fdspec.kernels.batch.shelf import STICK_MAP
+from fdspec.compiler.records import size_of
+from fdspec.kernels.mathematics.oscillator import StepMap
 from fdspec.kernels.mathematics.polynomial_roots import TAIL
-from fdspec.kernels.storey.constants import is_slow
+from fdspec.kernels.storey.constants import Plan, is_slow
 from fdspec.kernels.storey.energy import STICK_FORM, STRIDE_FORM
 from fdspec.kernels.types import (
-    KICK,
     N_STATE,
-    NO_KICK,
+    NO_ONSET,
     OFFSET,
+    ONSET,
     PEAK_ACCELERATION,
     PEAK_BRACE,
     PEAK_DISPLACEMENT,
@@ -36,12 +38,25 @@ from fdspec.kernels.types import (
 WIDTH = 16
 """Histories side by side: two registers of AVX-512, four of AVX2, so that one hides another's latency."""
 
+
+class Stride(NamedTuple):
+    """Step maps of floor and brace apart over a whole step."""
+
+    floor: StepMap
+    brace: StepMap
+
+
+N_PLAN = size_of(Plan)
+"""Numbers of a plan, as they stand in a row."""
+
+N_STRIDE = size_of(Stride)
+
 # Rows behind the state: the motion at the step's start, bounds on peaks in it, the largest reaction so far.
 _AT = N_STATE
-FROM_U, FROM_V, FROM_D, FROM_E, CREST_U, CREST_V, CREST_Q, CREST_S, CREST_B, HELD = range(_AT, _AT + 10)
+FROM_U, FROM_V, FROM_D, FROM_E, BOUND_U, BOUND_V, BOUND_Q, BOUND_S, BOUND_B, HELD = range(_AT, _AT + 10)
 _AT += 10
 # Constants of the storey.
-LIMIT, PUSH_FLOOR, PUSH_BRACE, LIFT, MASS, FLOOR_MASS, BRACE_MASS, LIGHT, MUST_WALK = range(_AT, _AT + 9)
+LIMIT, PUSH_FLOOR, PUSH_BRACE, LIFT, MASS, FLOOR_MASS, BRACE_MASS, LIGHT, ALONE = range(_AT, _AT + 9)
 _AT += 9
 # Floor and brace as one: rates, weights in the bound on free motion, and that bound's weights.
 S_G, S_W2, S_DRIFT, S_SLOW, S_TAIL_U, S_TAIL_V, S_TAIL_Q = range(_AT, _AT + 7)
@@ -81,11 +96,10 @@ def put_branch(p, row, lane, branch, h):
 
 
 @inner
-def put_lane(p, lane, plan, shelf, forms, stride, certify):
+def put_lane(p, lane, plan, stride, forms, certify):
     """Store the constants of a plan: those it holds, and what bounds over a whole step weigh them with.
 
-    shelf, forms, stride: the rows of the plan, of its losses, and of the maps of floor and brace over
-    a whole step.
+    stride: the `Stride` of the plan; forms: the row of its losses.
     """
     storey = plan.storey
     sliding = storey.kinetic_slip_force if storey.slip_force < math.inf else 0.0
@@ -100,7 +114,7 @@ def put_lane(p, lane, plan, shelf, forms, stride, certify):
     p[LIGHT * WIDTH + lane] = 1.0 / plan.mass
     # A slow brace's quasi-static motion says nothing; a damped one's losses are not tallied a step at a time.
     slow = massive and is_slow(plan)
-    p[MUST_WALK * WIDTH + lane] = 1.0 if slow or (certify and storey.brace_damping > 0.0) else 0.0
+    p[ALONE * WIDTH + lane] = 1.0 if slow or (certify and storey.brace_damping > 0.0) else 0.0
     put_branch(p, S_G, lane, plan.stick, plan.step)
     put_branch(p, F_G, lane, plan.floor, plan.step)
     tail_u, tail_v = at(p, S_TAIL_U, lane), at(p, S_TAIL_V, lane)
@@ -122,9 +136,9 @@ def put_lane(p, lane, plan, shelf, forms, stride, certify):
     p[F_DAMP * WIDTH + lane] = storey.floor_damping
     p[HELD * WIDTH + lane] = 0.0
     for k in range(12):
-        p[(S_MAP + k) * WIDTH + lane] = shelf[STICK_MAP + k]
-        p[(F_MAP + k) * WIDTH + lane] = stride[k]
-        p[(B_MAP + k) * WIDTH + lane] = stride[12 + k]
+        p[(S_MAP + k) * WIDTH + lane] = plan.stick_map[k]
+        p[(F_MAP + k) * WIDTH + lane] = stride.floor[k]
+        p[(B_MAP + k) * WIDTH + lane] = stride.brace[k]
     for k in range(10):
         double = 1.0 if k in (0, 4, 7, 9) else 2.0  # off the diagonal of the quadratic form
         p[(S_LOSS + k) * WIDTH + lane] = forms[STICK_FORM + k] * double
@@ -136,13 +150,13 @@ def start_lane(p, lane):
     """Set a lane to rest at t = 0; a damper without friction slides from the start."""
     for row in range(N_STATE):
         p[row * WIDTH + lane] = 0.0
-    p[KICK * WIDTH + lane] = NO_KICK
+    p[ONSET * WIDTH + lane] = NO_ONSET
     p[PHASE * WIDTH + lane] = 1.0 if at(p, LIMIT, lane) == 0.0 else 0.0
 
 
 @inner
 def rest_lane(p, lane):
-    """Make a lane quiet for good: sticking, no slip force to reach, no peak to pass."""
+    """Make a lane uneventful for good: sticking, no slip force to reach, no peak to pass."""
     p[LIMIT * WIDTH + lane] = math.inf
     start_lane(p, lane)
     for row in range(PEAK_ACCELERATION, PEAK_SHEAR + 1):
@@ -168,17 +182,17 @@ def take_state(p, lane, s):
 
 
 @inlined
-def is_calm(p, lane, s):
+def has_no_new_peak(p, lane, s):
     """Whether a step passes none of the peaks in the state ``s``, unless the phase changes on it."""
     return (
-        at(p, CREST_Q, lane) <= s[PEAK_ACCELERATION]
-        and at(p, CREST_U, lane) <= s[PEAK_DISPLACEMENT]
-        and at(p, CREST_V, lane) <= s[PEAK_VELOCITY]
-        and at(p, CREST_S, lane) <= s[PEAK_SHEAR]
+        at(p, BOUND_Q, lane) <= s[PEAK_ACCELERATION]
+        and at(p, BOUND_U, lane) <= s[PEAK_DISPLACEMENT]
+        and at(p, BOUND_V, lane) <= s[PEAK_VELOCITY]
+        and at(p, BOUND_S, lane) <= s[PEAK_SHEAR]
     )
 
 
 @inlined
-def is_brace_calm(p, lane, s):
+def has_no_new_brace_peak(p, lane, s):
     """Whether a step passes no peak of the brace force in the state ``s``, unless the phase changes on it."""
-    return at(p, CREST_B, lane) <= s[PEAK_BRACE]
+    return at(p, BOUND_B, lane) <= s[PEAK_BRACE]

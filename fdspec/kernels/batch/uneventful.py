@@ -1,10 +1,11 @@
 """Steps in which nothing happens, of many histories at once.
 
 One loop without a branch over the lanes, which the compiler turns into vector instructions.  Bounds
-decide lane by lane whether a step is quiet: a lane whose phase surely stays moves to the step's end, any
-other stays where it is, to walk this step by itself.  Both kinds are told as sets of lanes, a bit for each.
+decide lane by lane whether a step is uneventful: a lane whose phase surely stays moves to the step's end.
+Any other stays where it is: its step is eventful, and `take_step` takes it alone.  Sets of lanes are
+integers, a bit for each lane.
 
-While sticking a step is one whole piece, and the bounds are those of the walk.  While slipping the
+While sticking a step is one whole segment, and the bounds are those of `take_step`.  While slipping the
 brace may ring many radians in a step: it swings about its quasi-static motion with an amplitude that
 does not grow, so the slowest sliding is at least the floor's slowest less that swing, and a floor
 that slides faster cannot be caught.
@@ -16,6 +17,7 @@ import math
 
 from fdspec.compiler.options import fma, inlined, inner, wide
 from fdspec.kernels.batch.layout import (
+    ALONE,
     B_DRIFT,
     B_G,
     B_GROUND,
@@ -25,12 +27,12 @@ from fdspec.kernels.batch.layout import (
     B_TAIL_E,
     B_TAIL_Q,
     B_W2,
+    BOUND_B,
+    BOUND_Q,
+    BOUND_S,
+    BOUND_U,
+    BOUND_V,
     BRACE_MASS,
-    CREST_B,
-    CREST_Q,
-    CREST_S,
-    CREST_U,
-    CREST_V,
     F_DAMP,
     F_DRIFT,
     F_G,
@@ -55,7 +57,6 @@ from fdspec.kernels.batch.layout import (
     LIGHT,
     LIMIT,
     MASS,
-    MUST_WALK,
     PUSH_BRACE,
     PUSH_FLOOR,
     S_DAMP,
@@ -76,8 +77,8 @@ from fdspec.kernels.mathematics.oscillator import acceleration, dot4
 from fdspec.kernels.mathematics.polynomial_roots import THIRD
 from fdspec.kernels.types import (
     INPUT,
-    KICK,
     OFFSET,
+    ONSET,
     PEAK_ACCELERATION,
     PEAK_BRACE,
     PEAK_DISPLACEMENT,
@@ -114,19 +115,19 @@ def form(p, row, lane, x, v, p0, p1):
 
 @inner
 def stick_lanes(p, h, ground, rate):
-    """Advance the sticking lanes in which nothing happens; return those to walk, and those to keep.
+    """Advance the sticking lanes in which nothing happens; return the eventful ones, and those to defer.
 
     The brace's motion follows from the floor's and is left for `take_state` to tell.
 
-    To keep for their peaks are those that advance where the bounds leave room for a new one.
-    HELD keeps the largest reaction for which the bounds leave room: above it no slip force is reached.
+    Deferred are the peaks of lanes that advance where the bounds leave room for a new one.
+    HELD defers the largest reaction for which the bounds leave room: above it no slip force is reached.
     """
     wide()
     third = h * THIRD
     ground_end = fma(rate, h, ground)
     steep = abs(rate)
-    to_walk = 0  # integers: sums of floats would be taken one by one, in order
-    to_keep = 0
+    eventful = 0  # integers: sums of floats would be taken one by one, in order
+    to_defer = 0
     for lane in range(WIDTH):
         u = at(p, U, lane)
         v = at(p, V, lane)
@@ -158,24 +159,24 @@ def stick_lanes(p, h, ground, rate):
         top_s = max(at(p, PEAK_SHEAR, lane), at(p, MASS, lane) * abs(q1))
         top_u = max(at(p, PEAK_DISPLACEMENT, lane), abs(u1))
         top_v = max(at(p, PEAK_VELOCITY, lane), abs(v1))
-        crest_u = max(abs(fma(third, v, u)), abs(fma(-third, v1, u1)))
-        crest_u = fma(swing, at(p, S_TAIL_U, lane), crest_u)
-        crest_v = max(abs(fma(third, a0, v)), abs(fma(-third, a1, v1)))
-        crest_v = fma(swing, at(p, S_TAIL_V, lane), crest_v)
+        bound_u = max(abs(fma(third, v, u)), abs(fma(-third, v1, u1)))
+        bound_u = fma(swing, at(p, S_TAIL_U, lane), bound_u)
+        bound_v = max(abs(fma(third, a0, v)), abs(fma(-third, a1, v1)))
+        bound_v = fma(swing, at(p, S_TAIL_V, lane), bound_v)
         fall0, fall1 = fma(g, a0, w2 * v), fma(g, a1, w2 * v1)
-        crest_q = max(abs(fma(-third, fall0, q0)), abs(fma(third, fall1, q1)))
-        crest_q = fma(swing, at(p, S_TAIL_Q, lane), crest_q)
+        bound_q = max(abs(fma(-third, fall0, q0)), abs(fma(third, fall1, q1)))
+        bound_q = fma(swing, at(p, S_TAIL_Q, lane), bound_q)
         # The brace carries the reaction less the inertia of its own mass.
         m_b = at(p, BRACE_MASS, lane)
-        crest_b = fma(m_b, crest_q, inside)
+        bound_b = fma(m_b, bound_q, inside)
         top_b = max(at(p, PEAK_BRACE, lane), abs(fma(-m_b, q1, r1)))
         sticks = at(p, PHASE, lane) == 0.0
         alert = (held >= at(p, LIMIT, lane)) | (at(p, TOUCHING, lane) != 0.0)
-        peak = (crest_q > min(top_a, top_s * at(p, LIGHT, lane))) | (crest_u > top_u) | (crest_v > top_v)
-        peak |= crest_b > top_b
+        peak = (bound_q > min(top_a, top_s * at(p, LIGHT, lane))) | (bound_u > top_u) | (bound_v > top_v)
+        peak |= bound_b > top_b
         moves = sticks & (not alert)
-        to_walk |= (1 << lane) if sticks & alert else 0
-        to_keep |= (1 << lane) if moves & peak else 0
+        eventful |= (1 << lane) if sticks & alert else 0
+        to_defer |= (1 << lane) if moves & peak else 0
         moved = fma(ground, u1 - u, rate * fma(h, u1, -area))
         p[FROM_U * WIDTH + lane] = u
         p[FROM_V * WIDTH + lane] = v
@@ -186,26 +187,26 @@ def stick_lanes(p, h, ground, rate):
         p[PEAK_VELOCITY * WIDTH + lane] = top_v if moves else at(p, PEAK_VELOCITY, lane)
         p[PEAK_SHEAR * WIDTH + lane] = top_s if moves else at(p, PEAK_SHEAR, lane)
         p[PEAK_BRACE * WIDTH + lane] = top_b if moves else at(p, PEAK_BRACE, lane)
-        p[CREST_B * WIDTH + lane] = crest_b
+        p[BOUND_B * WIDTH + lane] = bound_b
         p[INPUT * WIDTH + lane] -= at(p, MASS, lane) * moved if moves else 0.0
-        p[CREST_U * WIDTH + lane] = crest_u
-        p[CREST_V * WIDTH + lane] = crest_v
-        p[CREST_Q * WIDTH + lane] = crest_q
-        p[CREST_S * WIDTH + lane] = at(p, MASS, lane) * crest_q
+        p[BOUND_U * WIDTH + lane] = bound_u
+        p[BOUND_V * WIDTH + lane] = bound_v
+        p[BOUND_Q * WIDTH + lane] = bound_q
+        p[BOUND_S * WIDTH + lane] = at(p, MASS, lane) * bound_q
         p[HELD * WIDTH + lane] = max(at(p, HELD, lane), held)
-    return to_walk, to_keep
+    return eventful, to_defer
 
 
 @inner
 def slip_lanes(p, h, ground, rate):
-    """Advance the slipping lanes in which nothing happens; return those to walk, and those to keep."""
+    """Advance the slipping lanes in which nothing happens; return the eventful ones, and those to defer."""
     wide()
     third = h * THIRD
     ground_end = fma(rate, h, ground)
     steep = abs(rate)
     shake = max(abs(ground), abs(ground_end))
-    to_walk = 0
-    to_keep = 0
+    eventful = 0
+    to_defer = 0
     for lane in range(WIDTH):
         sign = at(p, PHASE, lane)
         u = at(p, U, lane)
@@ -251,12 +252,12 @@ def slip_lanes(p, h, ground, rate):
         top_a = max(at(p, PEAK_ACCELERATION, lane), abs(q1))
         top_u = max(at(p, PEAK_DISPLACEMENT, lane), abs(u1))
         top_v = max(at(p, PEAK_VELOCITY, lane), abs(v1))
-        crest_u = max(abs(fma(third, v, u)), abs(fma(-third, v1, u1)))
-        crest_u = fma(swing, at(p, F_TAIL_U, lane), crest_u)
-        crest_v = max(abs(fma(third, a0, v)), abs(fma(-third, a1, v1))) + tail_v
+        bound_u = max(abs(fma(third, v, u)), abs(fma(-third, v1, u1)))
+        bound_u = fma(swing, at(p, F_TAIL_U, lane), bound_u)
+        bound_v = max(abs(fma(third, a0, v)), abs(fma(-third, a1, v1))) + tail_v
         fall0, fall1 = fma(g, a0, w2 * v), fma(g, a1, w2 * v1)
-        crest_q = max(abs(fma(-third, fall0, q0)), abs(fma(third, fall1, q1)))
-        crest_q = fma(swing, at(p, F_TAIL_Q, lane), crest_q)
+        bound_q = max(abs(fma(-third, fall0, q0)), abs(fma(third, fall1, q1)))
+        bound_q = fma(swing, at(p, F_TAIL_Q, lane), bound_q)
         # Base shear is the inertia of both masses; the brace itself accelerates at most by ring times omega.
         m = at(p, FLOOR_MASS, lane)
         m_b = at(p, BRACE_MASS, lane)
@@ -267,26 +268,26 @@ def slip_lanes(p, h, ground, rate):
         rise1 = third * fma(m, fall1, m_b * drop1)
         inside = max(abs(s0 - rise0), abs(s1 + rise1))
         inside += fma(m * swing, at(p, F_TAIL_Q, lane), m_b * ring * at(p, B_TAIL_Q, lane))
-        crest_s = m_b * fma(ring, at(p, B_OMEGA, lane), shake)
-        crest_s = fma(m, max(max(abs(q0), abs(q1)), crest_q), crest_s)
-        crest_s = min(crest_s, max(max(abs(s0), abs(s1)), inside))
+        bound_s = m_b * fma(ring, at(p, B_OMEGA, lane), shake)
+        bound_s = fma(m, max(max(abs(q0), abs(q1)), bound_q), bound_s)
+        bound_s = min(bound_s, max(max(abs(s0), abs(s1)), inside))
         shear = max(at(p, PEAK_SHEAR, lane), abs(s1))
         # The brace carries friction less its inertia: that of its quasi-static motion, and of its ringing.
         f0 = fma(g_b, e, w2_b * d)
         f1 = fma(g_b, e1, w2_b * d1)
         inside = max(abs(fma(third, drop0, f0)), abs(fma(-third, drop1, f1)))
         inside = fma(ring, at(p, B_TAIL_Q, lane), inside)
-        crest_b = fma(ring, at(p, B_OMEGA, lane), max(abs(b0), abs(fma(-b1, h, b0))))
-        crest_b = m_b * min(crest_b, max(max(abs(f0), abs(f1)), inside))
+        bound_b = fma(ring, at(p, B_OMEGA, lane), max(abs(b0), abs(fma(-b1, h, b0))))
+        bound_b = m_b * min(bound_b, max(max(abs(f0), abs(f1)), inside))
         top_b = max(at(p, PEAK_BRACE, lane), m_b * abs(f1))
         slips = sign != 0.0
-        alert = (at(p, MUST_WALK, lane) != 0.0) | (at(p, KICK, lane) >= 0.0)
-        alert |= (slowest <= 0.0) | (crest_s > shear)
-        peak = (crest_q > top_a) | (crest_u > top_u) | (crest_v > top_v)
-        peak |= crest_b > top_b
+        alert = (at(p, ALONE, lane) != 0.0) | (at(p, ONSET, lane) >= 0.0)
+        alert |= (slowest <= 0.0) | (bound_s > shear)
+        peak = (bound_q > top_a) | (bound_u > top_u) | (bound_v > top_v)
+        peak |= bound_b > top_b
         moves = slips & (not alert)
-        to_walk |= (1 << lane) if slips & alert else 0
-        to_keep |= (1 << lane) if moves & peak else 0
+        eventful |= (1 << lane) if slips & alert else 0
+        to_defer |= (1 << lane) if moves & peak else 0
         moved = ground * (u1 - u)
         work = m * fma(rate, fma(h, u1, -floor_area), moved)
         work = fma(m_b, fma(ground, d1 - d, rate * fma(h, d1, -brace_area)), work)
@@ -303,33 +304,33 @@ def slip_lanes(p, h, ground, rate):
         p[PEAK_BRACE * WIDTH + lane] = top_b if moves else at(p, PEAK_BRACE, lane)
         p[FROM_D * WIDTH + lane] = d if slips else at(p, FROM_D, lane)
         p[FROM_E * WIDTH + lane] = e if slips else at(p, FROM_E, lane)
-        p[CREST_B * WIDTH + lane] = crest_b if slips else at(p, CREST_B, lane)
+        p[BOUND_B * WIDTH + lane] = bound_b if slips else at(p, BOUND_B, lane)
         p[INPUT * WIDTH + lane] -= work if moves else 0.0
-        p[CREST_U * WIDTH + lane] = crest_u if slips else at(p, CREST_U, lane)
-        p[CREST_V * WIDTH + lane] = crest_v if slips else at(p, CREST_V, lane)
-        p[CREST_Q * WIDTH + lane] = crest_q if slips else at(p, CREST_Q, lane)
-        p[CREST_S * WIDTH + lane] = crest_s if slips else at(p, CREST_S, lane)
-    return to_walk, to_keep
+        p[BOUND_U * WIDTH + lane] = bound_u if slips else at(p, BOUND_U, lane)
+        p[BOUND_V * WIDTH + lane] = bound_v if slips else at(p, BOUND_V, lane)
+        p[BOUND_Q * WIDTH + lane] = bound_q if slips else at(p, BOUND_Q, lane)
+        p[BOUND_S * WIDTH + lane] = bound_s if slips else at(p, BOUND_S, lane)
+    return eventful, to_defer
 
 
 @inner
-def stick_losses(p, ground, rate, to_walk):
-    """Add the viscous work of this step to the sticking lanes but those that are to walk it."""
+def stick_losses(p, ground, rate, eventful):
+    """Add the viscous work of this step to the sticking lanes for which it is uneventful."""
     wide()
     for lane in range(WIDTH):
         p0 = at(p, LIFT, lane) * at(p, OFFSET, lane) - ground
         loss = form(p, S_LOSS, lane, at(p, FROM_U, lane), at(p, FROM_V, lane), p0, -rate)
-        taken = (at(p, PHASE, lane) == 0.0) & (to_walk >> lane & 1 == 0)
+        taken = (at(p, PHASE, lane) == 0.0) & (eventful >> lane & 1 == 0)
         p[VISCOUS * WIDTH + lane] += at(p, S_DAMP, lane) * loss if taken else 0.0
 
 
 @inner
-def slip_losses(p, ground, rate, to_walk):
+def slip_losses(p, ground, rate, eventful):
     """The same for the slipping lanes."""
     wide()
     for lane in range(WIDTH):
         sign = at(p, PHASE, lane)
         p0 = sliding_force(-sign, at(p, PUSH_FLOOR, lane)) - ground
         loss = form(p, F_LOSS, lane, at(p, FROM_U, lane), at(p, FROM_V, lane), p0, -rate)
-        taken = (sign != 0.0) & (to_walk >> lane & 1 == 0)
+        taken = (sign != 0.0) & (eventful >> lane & 1 == 0)
         p[VISCOUS * WIDTH + lane] += at(p, F_DAMP, lane) * loss if taken else 0.0

@@ -27,7 +27,7 @@ from fdspec.kernels.bilinear.mode import (
 )
 from fdspec.kernels.mathematics.polynomial_roots import NO_ROOT, first_root, largest_magnitude
 from fdspec.kernels.mathematics.quadrature import series_area, series_square
-from fdspec.kernels.storey.bounds import crest
+from fdspec.kernels.storey.bounds import magnitude_bound
 
 RESULTS = (
     "peak_displacement",
@@ -118,11 +118,11 @@ def may_turn(c, k, h, u, v, w, y, u1, v1, w1, y1, third, fourth, displacement, a
     v, w: u' and u''; third, fourth: bounds on the derivatives of u.
     """
     power = h * h * h * h
-    if crest(u, h * v, u1, h * v1, power * fourth) > displacement:
+    if magnitude_bound(u, h * v, u1, h * v1, power * fourth) > displacement:
         return True
     fifth = c * fourth + abs(k) * third
     rise, rise1 = -h * (c * w + k * v), -h * (c * w1 + k * v1)
-    return crest(y, rise, y1, rise1, power * (c * fifth + abs(k) * fourth)) > acceleration
+    return magnitude_bound(y, rise, y1, rise1, power * (c * fifth + abs(k) * fourth)) > acceleration
 
 
 @inner
@@ -171,7 +171,7 @@ def history(
     eighth = h * h / 8.0
     steps = (ground.size - 1) * parts
     most = steps + (int(math.ceil(FREE_PERIODS * 2.0 * math.pi / (math.sqrt(k) * h))) if rest else 0)
-    quiet = 0
+    resting = 0
     sample = 0
     part = 0
     step = 0
@@ -190,11 +190,11 @@ def history(
                 home = (1.0 - alpha) * p
                 swing = math.sqrt((u - home) * (u - home) + v * v / k)
                 if abs(home - p) + swing <= limit * (1.0 + SAME_PLACE):
-                    quiet += 1
-                    if abs(home) + swing <= displacement or quiet * h > 2.0 * math.pi / math.sqrt(k) + h:
+                    resting += 1
+                    if abs(home) + swing <= displacement or resting * h > 2.0 * math.pi / math.sqrt(k) + h:
                         break
                 else:
-                    quiet = 0
+                    resting = 0
         step += 1
         stiff = k if mode == ELASTIC else soft
         b = (1.0 - alpha) * k * p if mode == ELASTIC else -mode * force

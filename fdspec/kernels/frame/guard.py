@@ -135,10 +135,10 @@ def slips_on(frame, model, sign, series, reach, state, h, ground, rise, i):
         pull += abs(ground) + jerk
     swing = drift_rate - state[SLIDING, i]
     stretch = drift - state[OFFSET, i]
-    kick = (model[FRICTION, i] - stiffness * stretch - frame[BRACE_DAMPING, i] * swing) / mass - below
+    pull = (model[FRICTION, i] - stiffness * stretch - frame[BRACE_DAMPING, i] * swing) / mass - below
     slowness = model[SLOWNESS, i]
-    kick *= slowness
-    ring = math.sqrt(swing * swing + kick * kick) + jerk * slowness
+    pull *= slowness
+    ring = math.sqrt(swing * swing + pull * pull) + jerk * slowness
     return sign * drift_rate - h * pull > ring
 
 

@@ -18,12 +18,12 @@ from fdspec.kernels.frame_batch.layout import (
     LAST,
     LAST_SECOND,
     LENGTH,
-    LOOSE_MASS,
     MASS,
     MOST_INPUT,
     RISE,
     SECOND,
     SLIDES,
+    SLIDING_MASS,
     START,
     row,
     term,
@@ -100,10 +100,10 @@ def add_input(p, at, size, orders):
     momentum = splat(0.0)
     for i in range(size):
         whole = load(p, row(MASS, i))
-        loose = load(p, row(LOOSE_MASS, i))
+        sliding_mass = load(p, row(SLIDING_MASS, i))
         mass = mass + whole
         momentum = fma8(whole, load(p, row(START + VELOCITY, i)), momentum)
-        momentum = less8(momentum, loose, load(p, row(START + SLIDING, i)))
+        momentum = less8(momentum, sliding_mass, load(p, row(START + SLIDING, i)))
     twice = splat(0.0)
     thrice = splat(0.0)
     power = splat(1.0)

@@ -130,7 +130,7 @@ def put_speeds(p, at, series, i, size, orders, nodes, first, x, ground, rise, h,
 
 
 @inner
-def power_at(p, at, size, node, dense_damping, damped, grounded, loose):
+def power_at(p, at, size, node, dense_damping, damped, grounded, damped_braces):
     """Power of all dashpots at a node, W."""
     wide()
     speeds = at.speeds + node * size * WIDTH
@@ -143,7 +143,7 @@ def power_at(p, at, size, node, dense_damping, damped, grounded, loose):
             drift = speed - below
             below = speed
             power = fma8(load(p, row(COLUMN_DASHPOTS, i)), drift * drift, power)
-            if loose:
+            if damped_braces:
                 brace = drift - load(p, slides + i * WIDTH)
                 power = fma8(load(p, row(DASHPOT, i)), brace * brace, power)
         if grounded:
@@ -167,24 +167,24 @@ def power_at(p, at, size, node, dense_damping, damped, grounded, loose):
 
 
 @inner
-def add_dissipation(p, at, size, orders, dense_damping, damped, grounded, loose):
+def add_dissipation(p, at, size, orders, dense_damping, damped, grounded, damped_braces):
     """Add the work into dashpots on what is taken of the steps.
 
-    loose: whether any brace has a dashpot; the other arguments are those of `expand`.
+    damped_braces: whether any brace has a dashpot; the other arguments are those of `expand`.
     """
     wide()
     total = splat(0.0)
-    if loose:
+    if damped_braces:
         for first in range(0, len(NODES), SIX):
             floor_speeds(p, at, size, orders, NODES, first)
             sliding_speeds(p, at, size, orders, NODES, first)
         for node in range(len(NODES)):
-            power = power_at(p, at, size, node, dense_damping, damped, grounded, loose)
+            power = power_at(p, at, size, node, dense_damping, damped, grounded, damped_braces)
             total = fma8(splat(WEIGHTS[node]), power, total)
     else:
         floor_speeds(p, at, size, orders, FEW_NODES, 0)
         for node in range(SIX):
-            power = power_at(p, at, size, node, dense_damping, damped, grounded, loose)
+            power = power_at(p, at, size, node, dense_damping, damped, grounded, damped_braces)
             total = fma8(splat(FEW_WEIGHTS[node]), power, total)
     work = load(p, FRACTION * WIDTH) * load(p, LENGTH * WIDTH) * total
     store(p, VISCOUS * WIDTH, load(p, VISCOUS * WIDTH) + work)

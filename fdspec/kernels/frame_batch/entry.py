@@ -174,7 +174,7 @@ def run(
     dampings,
     damped,
     grounded,
-    loose,
+    damped_braces,
     ground,
     dt,
     certify,
@@ -287,7 +287,7 @@ def run(
         advance(p, at, size, most)
         add_input(p, at, size, most)
         if certify:
-            add_dissipation(p, at, size, most, dense_damping, damped, grounded, loose)
+            add_dissipation(p, at, size, most, dense_damping, damped, grounded, damped_braces)
         raise_peaks(p, at, size, running, orders, c)
         for lane in range(WIDTH):
             if running >> lane & 1 == 0:
@@ -388,7 +388,7 @@ def integrate_frames(
     dampings,
     damped,
     grounded,
-    loose,
+    damped_braces,
     ground,
     dt,
     certify,
@@ -399,9 +399,10 @@ def integrate_frames(
     """Integrate histories of frames of N storeys from rest, none of whose braces is massless.
 
     frames (m, FRAME_ROWS, N); stiffnesses, dampings (b, N, N), or (b, 0, 0): the dense matrices, of which
-    history i takes number dense[i]; see :mod:`fdspec.kernels.frame.model`.  damped, grounded, loose: whether
-    any dashpot stands between neighbours, any spring or dashpot on the ground, any dashpot beside a brace.
-    ground: acceleration at the samples dt apart, m/s2, (n,).  radians: longest phase of a step.
+    history i takes number dense[i]; see :mod:`fdspec.kernels.frame.model`.  damped, grounded,
+    damped_braces: whether any dashpot stands between neighbours, any spring or dashpot on the ground, any
+    dashpot beside a brace.  ground: acceleration at the samples dt apart, m/s2, (n,).  radians: longest phase
+    of a step.
 
     by_storey (m, len(STOREY_RESULTS), N), totals (m, len(TOTALS)): results.  viscous_energy and
     energy_error are worked out where ``certify`` says so.
@@ -417,7 +418,7 @@ def integrate_frames(
         dampings,
         damped,
         grounded,
-        loose,
+        damped_braces,
         ground,
         dt,
         certify,

@@ -31,7 +31,6 @@ from fdspec.kernels.frame_batch.layout import (
     INERTIA_REACH,
     JERK_REACH,
     LENGTH,
-    LOOSE_MASS,
     MASS,
     NOW,
     OF_BRACE,
@@ -43,6 +42,7 @@ from fdspec.kernels.frame_batch.layout import (
     SECOND,
     SECOND_REACH,
     SLIDES,
+    SLIDING_MASS,
     SPRING,
     START,
     STUCK,
@@ -156,7 +156,7 @@ def expand(p, at, size, orders, dense_stiffness, dense_damping, damped, grounded
             store(p, term(at, INERTIA, i, k), inertia)
             store(p, term(at, SECOND, i, k), second)
             total = fma8(load(p, row(MASS, i)), inertia, total)
-            total = less8(total, load(p, row(LOOSE_MASS, i)), second)
+            total = less8(total, load(p, row(SLIDING_MASS, i)), second)
             if k == 0:
                 inertia = inertia - load(p, GROUND * WIDTH)
             elif k == 1:

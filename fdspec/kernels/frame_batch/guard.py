@@ -80,8 +80,8 @@ def alert(p, at, size, alerts):
         force = less8(load(p, row(FRICTION, i)), load(p, row(SPRING, i)), stretch)
         force = less8(force, load(p, row(DASHPOT, i)), swing)
         slowness = load(p, row(SLOWNESS, i))
-        kick = slowness * fma8(force, load(p, row(OVER_BRACE, i)), nothing - below)
-        ring = fma8(jerk, slowness, sqrt8(fma8(swing, swing, kick * kick)))
+        pull = slowness * fma8(force, load(p, row(OVER_BRACE, i)), nothing - below)
+        ring = fma8(jerk, slowness, sqrt8(fma8(swing, swing, pull * pull)))
         store(p, row(RING, i), ring)
         slips = above(abs8(sign), nothing)
         slowest = fma8(

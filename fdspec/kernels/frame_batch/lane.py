@@ -31,7 +31,6 @@ from fdspec.kernels.frame_batch.layout import (
     GROUND_SPRINGS,
     INPUT,
     LIMIT,
-    LOOSE_MASS,
     MASS,
     MOST_INPUT,
     OF_BRACE,
@@ -43,6 +42,7 @@ from fdspec.kernels.frame_batch.layout import (
     RATE,
     SIGN,
     SLIDES,
+    SLIDING_MASS,
     SLOWNESS,
     SPECIAL,
     SPRING,
@@ -69,7 +69,7 @@ def put_phase(p, lane, frame, model, phase, i):
     p[row(OF_BRACE, i) + lane] = model[rows.BRACE_SHARE, i] if sticks else 1.0 / brace
     p[row(SLIDES, i) + lane] = 0.0 if sticks else 1.0
     p[row(SIGN, i) + lane] = phase[i]
-    p[row(LOOSE_MASS, i) + lane] = 0.0 if sticks else brace
+    p[row(SLIDING_MASS, i) + lane] = 0.0 if sticks else brace
 
 
 @inner

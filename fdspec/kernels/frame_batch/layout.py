@@ -37,14 +37,14 @@ HISTORY_ROWS: Final = 10
     LIMIT,
     SPECIAL,
     MASS,
-    LOOSE_MASS,
+    SLIDING_MASS,
     OVER_BRACE,
     SLOWNESS,
     OMEGA,
 ) = range(20)
 """COMPLIANCE, STUCK, FRICTION as in `fdspec.kernels.frame.model`.  OF_FLOOR and OF_BRACE weigh the forces on
 floor and brace in what decides the storey's phase: its reaction while it sticks, the acceleration of
-its sliding while it slips.  SLIDES is then 1, else 0, SIGN its direction, LOOSE_MASS the brace's mass,
+its sliding while it slips.  SLIDES is then 1, else 0, SIGN its direction, SLIDING_MASS the brace's mass,
 else 0.  LIMIT: slip force, infinite without a brace; SPECIAL: 1 where a phase has just begun;
 OVER_BRACE: 1 / m_d, SLOWNESS: sqrt(m_d / k_d), OMEGA its inverse, 0 without a brace."""
 

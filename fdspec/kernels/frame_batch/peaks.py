@@ -42,7 +42,6 @@ from fdspec.kernels.frame_batch.layout import (
     LAST,
     LAST_SECOND,
     LENGTH,
-    LOOSE_MASS,
     MASS,
     OMEGA,
     OVER_BRACE,
@@ -53,6 +52,7 @@ from fdspec.kernels.frame_batch.layout import (
     SECOND,
     SECOND_REACH,
     SLIDES,
+    SLIDING_MASS,
     START,
     row,
     term,
@@ -142,16 +142,16 @@ def raise_peaks(p, at, size, lanes, orders, c):
         # The storey shear carries the inertia of all masses above; a slipping brace's is that of the floor
         # below it and of its swing about that, which does not go beyond its bound.
         mass = load(p, row(MASS, i))
-        loose = load(p, row(LOOSE_MASS, i))
-        shear = less8(fma8(mass, inertia, shear), loose, second)
-        last_shear = less8(fma8(mass, last, last_shear), loose, load(p, row(LAST_SECOND, i)))
-        bends = fma8(mass - loose, bend, bends)
+        sliding_mass = load(p, row(SLIDING_MASS, i))
+        shear = less8(fma8(mass, inertia, shear), sliding_mass, second)
+        last_shear = less8(fma8(mass, last, last_shear), sliding_mass, load(p, row(LAST_SECOND, i)))
+        bends = fma8(mass - sliding_mass, bend, bends)
         if i > 0:
-            bends = fma8(loose, load(p, row(REACH + BEND_REACH, i - 1)), bends)
-        of_ring = splat(2.0) * loose * ring * omega
+            bends = fma8(sliding_mass, load(p, row(REACH + BEND_REACH, i - 1)), bends)
+        of_ring = splat(2.0) * sliding_mass * ring * omega
         rings = rings + of_ring
         rate = fma8(load(p, row(DASHPOT, i)), load(p, row(OVER_BRACE, i)), omega)
-        steepens = fma8(of_ring, rate * h, fma8(splat(2.0) * loose, below_jerk, steepens))
+        steepens = fma8(of_ring, rate * h, fma8(splat(2.0) * sliding_mass, below_jerk, steepens))
         top = raised(p, PEAK_SHEAR, i, shear, last_shear)
         most = fma8(splat(0.125), bends, max8(abs8(shear), abs8(last_shear)) + rings)
         turns = ALL & ~above(abs8(last_shear - shear), fma8(splat(0.5), bends, steepens))
@@ -281,9 +281,11 @@ def take_shear(p, at, size, storey, lane, n, x, c):
     clear(c, n - 1)
     for i in range(size - 1, storey - 1, -1):
         mass = p[row(MASS, i) + lane]
-        loose = p[row(LOOSE_MASS, i) + lane]
+        sliding_mass = p[row(SLIDING_MASS, i) + lane]
         power = 1.0
         for k in range(n):
-            thrust = mass * p[term(at, INERTIA, i, k) + lane] - loose * p[term(at, SECOND, i, k) + lane]
+            thrust = (
+                mass * p[term(at, INERTIA, i, k) + lane] - sliding_mass * p[term(at, SECOND, i, k) + lane]
+            )
             c[k] -= thrust * power
             power *= x

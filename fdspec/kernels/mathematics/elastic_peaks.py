@@ -21,7 +21,7 @@ LANES = 8
 BLOCK = 128
 """Steps between stored states, from which the second pass starts again."""
 
-# Rows of the flat array that a shelf of lanes is kept in.
+# Rows of the flat array that holds the lanes.
 X, V, XX, XV, XA, XB, VX, VV, VA, VB, G, W2, MOST_X, MOST_V, MOST_Y, ROWS = range(16)
 
 

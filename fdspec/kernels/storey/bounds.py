@@ -1,4 +1,4 @@
-"""Forces on a piece of motion, bounds on what it does between its ends, and the floor's peaks."""
+"""Forces on a segment of motion, bounds on what it does between its ends, and the floor's peaks."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def ground_at(start, rate, t):
 
 @inlined
 def forcing(plan, phase, offset, acceleration, rate):
-    """Force over mass on a piece that begins at this ground acceleration (m/s2) and rate (m/s3)."""
+    """Force over mass on a segment that begins at this ground acceleration (m/s2) and rate (m/s3)."""
     if phase == STICK:
         return Force(plan.lift * offset - acceleration, -rate, 0.0, 0.0)
     storey = plan.storey
@@ -42,7 +42,7 @@ def swing(branch, v, a, force_rate):
 
 
 @inlined
-def crest(start, start_rise, end, end_rise, fourth):
+def magnitude_bound(start, start_rise, end, end_rise, fourth):
     """Bound on a magnitude over a step, from values and rises (slope times step) at both ends."""
     inside = max(abs(fma(start_rise, THIRD, start)), abs(fma(-end_rise, THIRD, end)))
     return max(max(abs(start), abs(end)), fma(fourth, TAIL, inside))
@@ -59,7 +59,7 @@ def velocity_series(c, n, h, out):
 
 @inner
 def shorten(c, n, share):
-    """Rescale the series of a piece to its first part."""
+    """Rescale the series of a segment to its first part."""
     power = 1.0
     for k in range(1, n + 1):
         power *= share
@@ -68,7 +68,7 @@ def shorten(c, n, share):
 
 @inner
 def ready(c, n, share, x, v, g, w2, p0, p1, h):
-    """Make c the series of a piece of length h: from nothing (share 0), or from that of a longer piece."""
+    """Make c the series of a segment of length h: from nothing (share 0), or from that of a longer one."""
     if share == 0.0:
         expand(c, n, x, v, g, w2, p0, p1, h)
     elif share < 1.0:
@@ -77,7 +77,7 @@ def ready(c, n, share, x, v, g, w2, p0, p1, h):
 
 @inlined
 def floor_fourths(branch, v, a, force_rate, h):
-    """Bounds on h^4 times the fourth derivative of displacement and of velocity over a piece."""
+    """Bounds on h^4 times the fourth derivative of displacement and of velocity over a segment."""
     theta = branch.rate * h
     cube = swing(branch, v, a, force_rate) * theta * theta * theta
     return cube * h, cube * theta
@@ -85,14 +85,14 @@ def floor_fourths(branch, v, a, force_rate, h):
 
 @inner
 def largest_velocity(floor, search, n, h, best):
-    """The greater of ``best`` and the floor's largest velocity on the expanded piece."""
+    """The greater of ``best`` and the floor's largest velocity on the expanded segment."""
     velocity_series(floor, n, h, search)
     return largest_magnitude(search, n, best)
 
 
 @inner
 def largest_acceleration(floor, search, n, h, g, w2, base, best):
-    """The greater of ``best`` and the floor's largest absolute acceleration on the expanded piece."""
+    """The greater of ``best`` and the floor's largest absolute acceleration on the expanded segment."""
     velocity_series(floor, n, h, search)
     for k in range(n + 1):
         search[k] = fma(-g, search[k], -w2 * floor[k])
@@ -102,7 +102,7 @@ def largest_acceleration(floor, search, n, h, g, w2, base, best):
 
 @inlined
 def floor_bounds(b, base, mass, start, end, force, h, peaks):
-    """Peaks with the end of a piece, the acceleration that matters inside, and what may be passed there.
+    """Peaks with the end of a segment, the acceleration that matters inside, and what may be passed there.
 
     Absolute acceleration is base - g v - w2 u; base shear is ``mass`` times it (0: not by this rule).  What
     may be passed: displacement, velocity, acceleration.
@@ -117,10 +117,10 @@ def floor_bounds(b, base, mass, start, end, force, h, peaks):
     shear = max(peaks.shear, mass * abs(q1))
     least = min(acceleration, shear / mass) if mass > 0.0 else acceleration
     fourth_u, fourth_v = floor_fourths(b, start.v, a0, force.p1, h)
-    see_u = crest(start.u, h * start.v, end.u, h * end.v, fourth_u) > displacement
-    see_v = crest(start.v, h * a0, end.v, h * a1, fourth_v) > velocity
+    see_u = magnitude_bound(start.u, h * start.v, end.u, h * end.v, fourth_u) > displacement
+    see_v = magnitude_bound(start.v, h * a0, end.v, h * a1, fourth_v) > velocity
     see_q = (
-        crest(
+        magnitude_bound(
             q0,
             -h * fma(b.g, a0, b.w2 * start.v),
             q1,
@@ -134,10 +134,10 @@ def floor_bounds(b, base, mass, start, end, force, h, peaks):
 
 @inlined
 def floor_peaks(b, base, mass, floor, search, n, share, start, end, force, h, peaks):
-    """Peaks over a piece in which the oscillator ``b`` carries the floor: its end, and extrema inside.
+    """Peaks over a segment in which the oscillator ``b`` carries the floor: its end, and extrema inside.
 
     base, mass: as in `floor_bounds`.  ``share`` tells what ``floor`` holds: 0 nothing, else the series of a
-    piece of which this one is that part.  An extremum is looked for only where bounds leave room for one.
+    segment of which this one is that part.  An extremum is looked for only where bounds leave room for one.
     """
     ends, least, see_u, see_v, see_q = floor_bounds(b, base, mass, start, end, force, h, peaks)
     acceleration, displacement, velocity, shear = ends

@@ -10,11 +10,11 @@ from fdspec.kernels.mathematics.oscillator import StepMap, rate_bound, series_or
 from fdspec.kernels.types import Storey
 
 RADIANS = 1.0
-"""Longest phase of a piece that is searched for roots; no result depends on it."""
+"""Longest phase of a segment that is searched for roots; no result depends on it."""
 
 
 SLOW = 0.05
-"""Phase (rad) of the brace in a piece below which its motion is a series: 12 digits are left there."""
+"""Phase (rad) of the brace in a segment below which its motion is a series: 12 digits are left there."""
 
 
 class Branch(NamedTuple):
@@ -46,16 +46,16 @@ class Plan(NamedTuple):
     lift: float
     """Force over mass per slip offset while sticking, 1/s2."""
     step: float
-    """Length of a step, s: a whole piece of stick."""
+    """Length of a step, s: a whole segment of stick."""
     slip_steps: float
-    """Pieces of slip in a step, a whole number."""
+    """Segments of slip in a step, a whole number."""
     slip_step: float
-    """Length of a piece of slip, s."""
+    """Length of a segment of slip, s."""
     stick_order: float
     slip_order: float
-    """Orders of the series on a piece, whole numbers."""
+    """Orders of the series on a segment, whole numbers."""
     floor_order: float
-    """Order of the floor's series on a piece of slip: the floor moves far less than the brace."""
+    """Order of the floor's series on a segment of slip: the floor moves far less than the brace."""
     stick_map: StepMap
     floor_map: StepMap
     brace_map: StepMap
@@ -107,7 +107,7 @@ def steps_per_sample(storey, dt, radians):
 
 
 @inlined
-def is_swift(plan):
+def has_closed_form(plan):
     """Whether the brace's motion is taken from its closed form: it has mass, no damping, and is not slow.
 
     The closed form of a brace that is slow against the step loses digits, see `is_slow`.
@@ -117,7 +117,7 @@ def is_swift(plan):
 
 @inlined
 def is_slow(plan):
-    """Whether the brace moves through so little of its period in a piece that its spring hardly matters.
+    """Whether the brace moves through so little of its period in a segment that its spring hardly matters.
 
     What is a difference of the forcing's share and of the swing about it then cancels: by 1 / phase^2 of a
     rounding.  A brace without spring is the limit.
@@ -127,7 +127,7 @@ def is_slow(plan):
 
 @inner
 def plan(storey, step, radians):
-    """Work out the constants; ``radians`` is the longest phase (rad) of a piece searched for roots."""
+    """Work out the constants; ``radians`` is the longest phase (rad) of a segment searched for roots."""
     m, c, k = storey.floor_mass, storey.floor_damping, storey.floor_stiffness
     md, cd, kd = storey.brace_mass, storey.brace_damping, storey.brace_stiffness
     mass = m + md

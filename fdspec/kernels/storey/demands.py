@@ -1,4 +1,4 @@
-"""What a designer reads off beside the floor's peaks: the force in the brace, of one piece at a time.
+"""What a designer reads off beside the floor's peaks: the force in the brace, of one segment at a time.
 
 The brace's spring and dashpot carry B = k_d d + c_d d'.  While floor and brace stick they move as one, and B
 is a quantity of that one oscillator.  While they slip the brace rings about its quasi-static motion,
@@ -7,7 +7,7 @@ is a quantity of that one oscillator.  While they slip the brace rings about its
 
 with ``ring`` the amplitude of its velocity, which does not grow.  A brace without mass carries s F_sl.
 
-The slip offset needs no search: sliding keeps its sign until it comes to zero, and so the largest offset
+The slip offset needs no search: sliding defers its sign until it comes to zero, and so the largest offset
 stands where slip stops, or at the history's end.
 """
 
@@ -20,8 +20,8 @@ from fdspec.kernels.friction import sliding_force
 from fdspec.kernels.mathematics.extremum import Weights, top_inside
 from fdspec.kernels.mathematics.oscillator import advance, expand
 from fdspec.kernels.mathematics.polynomial_roots import largest_magnitude
-from fdspec.kernels.storey.bounds import crest, floor_fourths, relative_acceleration
-from fdspec.kernels.storey.constants import is_swift
+from fdspec.kernels.storey.bounds import floor_fourths, magnitude_bound, relative_acceleration
+from fdspec.kernels.storey.constants import has_closed_form
 from fdspec.kernels.storey.slip import brace_fourths
 from fdspec.kernels.types import STICK, Force, Motion
 
@@ -34,7 +34,7 @@ def brace_force(storey, motion):
 
 @inner
 def force_series(kd, cd, c, n, share, h, out):
-    """Series of k_d x + c_d x' on the first part ``share`` of a piece on which c is the series of x.
+    """Series of k_d x + c_d x' on the first part ``share`` of a segment on which c is the series of x.
 
     h: length (s) of that part.
     """
@@ -49,7 +49,7 @@ def force_series(kd, cd, c, n, share, h, out):
 
 @inlined
 def stick_brace_peak(plan, floor, search, n, share, start, end, force, offset, h, best):
-    """The greater of ``best`` and the largest brace force after the start of a piece of stick.
+    """The greater of ``best`` and the largest brace force after the start of a segment of stick.
 
     ``share`` tells what ``floor`` holds, as for `fdspec.kernels.storey.bounds.floor_peaks`; it is left
     as it is unless that is nothing.
@@ -63,7 +63,7 @@ def stick_brace_peak(plan, floor, search, n, share, start, end, force, offset, h
     fourth_u, fourth_v = floor_fourths(b, start.v, a0, force.p1, h)
     fourth = fma(kd, fourth_u, cd * fourth_v)
     best = max(best, abs(last))
-    inside = crest(first, h * fma(kd, start.v, cd * a0), last, h * fma(kd, end.v, cd * a1), fourth)
+    inside = magnitude_bound(first, h * fma(kd, start.v, cd * a0), last, h * fma(kd, end.v, cd * a1), fourth)
     if inside <= best:
         return best
     return search_stick_brace(plan, floor, search, n, share, start, end, force, offset, h, fourth, best)
@@ -106,7 +106,7 @@ def slip_brace_bound(plan, start, b0, b1, h):
 
 @inlined
 def slip_brace_peak(plan, brace, search, n, share, start, end, force, h, best):
-    """The greater of ``best`` and the largest brace force after the start of a piece of slip.
+    """The greater of ``best`` and the largest brace force after the start of a segment of slip.
 
     ``share`` tells what ``brace`` holds; see `stick_brace_peak`.
     """
@@ -121,7 +121,7 @@ def slip_brace_peak(plan, brace, search, n, share, start, end, force, h, best):
     fourth_d, fourth_e = brace_fourths(plan, start, a0, force, h)
     fourth = fma(kd, fourth_d, cd * fourth_e)
     best = max(best, abs(last))
-    inside = crest(first, h * fma(kd, start.e, cd * a0), last, h * fma(kd, end.e, cd * a1), fourth)
+    inside = magnitude_bound(first, h * fma(kd, start.e, cd * a0), last, h * fma(kd, end.e, cd * a1), fourth)
     if inside <= best:
         return best
     return search_slip_brace(plan, brace, search, n, share, start, end, force, h, fourth, best)
@@ -134,7 +134,7 @@ def search_slip_brace(plan, brace, search, n, share, start, end, force, h, fourt
     b = plan.brace
     kd, cd = plan.storey.brace_stiffness, plan.storey.brace_damping
     if share == 0.0:
-        if is_swift(plan):
+        if has_closed_form(plan):
             w = Weights(0.0, 0.0, kd, 0.0)
             order = int(plan.floor_order)
             best, sure = top_inside(plan.floor, b, order, True, w, start, end, force, h, fourth, best)

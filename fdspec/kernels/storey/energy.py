@@ -15,8 +15,8 @@ FLOOR_FORM: Final = 10
 BRACE_FORM: Final = 20
 STRIDE_FORM: Final = 30
 N_FORMS: Final = 40
-"""Places of the quadratic forms of the viscous work: over a whole piece of stick; over one of slip, of floor
-and brace; of the floor over a whole step of slip."""
+"""Places of the quadratic forms of the viscous work: over a whole segment of stick; over one of slip, of
+floor and brace; of the floor over a whole step of slip."""
 
 
 @inlined
@@ -54,7 +54,7 @@ def put_losses(plan, forms):
 
 @inlined
 def input_work(plan, phase, start, end, floor_area, brace_area, acceleration, rate, h):
-    """Work of the ground on a piece: minus the integral of (m_f u' + m_d d') a_g, by parts."""
+    """Work of the ground on a segment: minus the integral of (m_f u' + m_d d') a_g, by parts."""
     floor = fma(acceleration, end.u - start.u, rate * fma(h, end.u, -floor_area))
     if phase == STICK:
         return -plan.mass * floor
@@ -64,7 +64,7 @@ def input_work(plan, phase, start, end, floor_area, brace_area, acceleration, ra
 
 @inner
 def series_work(plan, phase, floor, brace, n, acceleration, rate, h, x, viscous):
-    """Input and viscous work over the first part x of an expanded piece."""
+    """Input and viscous work over the first part x of an expanded segment."""
     storey = plan.storey
     start = floor[0]
     end, _ = value_slope(floor, 0, n, x)

@@ -14,7 +14,7 @@ from fdspec.compiler.positions import positions
 from fdspec.kernels.friction import friction_work, reaction
 from fdspec.kernels.storey.energy import stored_energy
 from fdspec.kernels.storey.rest import rest_displacement
-from fdspec.kernels.storey.step import begin, come_to_rest, resume, walk
+from fdspec.kernels.storey.step import begin, come_to_rest, resume, take_step
 from fdspec.kernels.types import (
     ANCHOR,
     ENERGY_NOT_CLOSED,
@@ -181,7 +181,7 @@ def history(
             a0 = ground[i] + rate * (j * plan.step)
         reach = BEYOND * plan.step if k + 1 == total else 0.0
         at = i * dt + j * plan.step
-        written = walk(
+        written = take_step(
             plan,
             forms,
             s,

@@ -40,7 +40,7 @@ def floor_acceleration(plan, phase, offset, motion):
 
 @inner
 def write_trace(plan, floor, brace, n, phase, offset, anchor, travel, so_far, acceleration, rate, h, x, row):
-    """Fill one row (see TRACES) at the fraction x of an expanded piece of length h."""
+    """Fill one row (see TRACES) at the fraction x of an expanded segment of length h."""
     storey = plan.storey
     u, rise = value_slope(floor, 0, n, x)
     v = rise / h

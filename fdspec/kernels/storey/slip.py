@@ -28,14 +28,14 @@ from fdspec.kernels.mathematics.zero_crossing import (
     step_to_zero,
 )
 from fdspec.kernels.storey.bounds import (
-    crest,
     floor_fourths,
     floor_peaks,
+    magnitude_bound,
     ready,
     relative_acceleration,
     swing,
 )
-from fdspec.kernels.storey.constants import is_swift
+from fdspec.kernels.storey.constants import has_closed_form
 from fdspec.kernels.types import Motion, Peaks
 
 NOISE = 1e-9
@@ -44,7 +44,7 @@ NOISE = 1e-9
 
 @inlined
 def brace_fourths(plan, motion, b, force, h):
-    """Bounds on h^4 times the fourth derivative of the brace's displacement and velocity over a piece."""
+    """Bounds on h^4 times the fourth derivative of the brace's displacement and velocity over a segment."""
     phi = plan.brace.rate * h
     if plan.brace.slowness > 0.0:
         ring = swing(plan.brace, motion.e, b, force.b1) * phi * phi * phi
@@ -54,10 +54,10 @@ def brace_fourths(plan, motion, b, force, h):
 
 
 @inlined
-def slip_course(plan, start, end, force, phase, kick, h):
-    """The sliding velocity over the piece, and whether a slip that begins with it surely leaves zero.
+def slip_course(plan, start, end, force, phase, onset, h):
+    """The sliding velocity over the segment, and whether a slip that begins with it surely leaves zero.
 
-    ``kick`` as in `search_slip`.
+    ``onset`` as in `search_slip`.
     """
     f = plan.floor
     b = plan.brace
@@ -74,7 +74,7 @@ def slip_course(plan, start, end, force, phase, kick, h):
     fourth = fourth_v + fourth_e
     twist = fma(b.g, k0, fma(b.w2, b0, fma(-f.g, j0, -f.w2 * a0)))
     noise = NOISE * h * h * (abs(j0) + abs(k0))
-    leaves = leaves_zero(h * kick, phase * h * h * (j0 - k0), phase * h * h * h * twist, fourth, noise)
+    leaves = leaves_zero(h * onset, phase * h * h * (j0 - k0), phase * h * h * h * twist, fourth, noise)
     course = Course(
         phase * (start.v - start.e),
         phase * h * (a0 - b0),
@@ -89,14 +89,14 @@ def slip_course(plan, start, end, force, phase, kick, h):
 
 
 @inlined
-def slip_verdict(plan, start, end, force, phase, kick, h):
-    """Whether sliding goes on over the piece, comes to zero, or neither is sure.
+def slip_verdict(plan, start, end, force, phase, onset, h):
+    """Whether sliding goes on over the segment, comes to zero, or neither is sure.
 
     Returned with the verdict: after how long it comes to zero, nearly (s), and until when it does so just
-    once.  ``kick`` as in `search_slip`.
+    once.  ``onset`` as in `search_slip`.
     """
-    course, leaves = slip_course(plan, start, end, force, phase, kick, h)
-    if kick >= 0.0:
+    course, leaves = slip_course(plan, start, end, force, phase, onset, h)
+    if onset >= 0.0:
         return CLEAR if leaves else UNCLEAR, 0.0, h
     if is_clear(course):
         return CLEAR, 0.0, h
@@ -106,7 +106,7 @@ def slip_verdict(plan, start, end, force, phase, kick, h):
 
 @inlined
 def slip_ahead(plan, start, force, t):
-    """Motion at the time t of a piece, and the integrals of both displacements until then.
+    """Motion at the time t of a segment, and the integrals of both displacements until then.
 
     For a brace with mass and without damping.
     """
@@ -162,19 +162,19 @@ def locate_stop(plan, start, force, phase, t, h):
 
 
 @inner
-def search_slip(floor, brace, slide, n, h, phase, kick):
-    """Fraction of the expanded piece at which the sliding velocity comes to zero.
+def search_slip(floor, brace, slide, n, h, phase, onset):
+    """Fraction of the expanded segment at which the sliding velocity comes to zero.
 
-    ``kick`` is the sliding acceleration with which a slip begins at the piece's start, known from
+    ``onset`` is the sliding acceleration with which a slip begins at the segment's start, known from
     the rule that began it and not from differences; negative where no slip begins.
     """
     pace = 1.0 / h
     for k in range(n):
         slide[k] = (k + 1) * (floor[k + 1] - brace[k + 1]) * pace
     slide[n] = 0.0
-    if kick >= 0.0:
+    if onset >= 0.0:
         slide[0] = 0.0
-        slide[1] = phase * kick * h
+        slide[1] = phase * onset * h
     elif phase * slide[0] < 0.0:  # by rounding: where sliding goes is what counts
         slide[0] = 0.0
     return first_root(slide, 0, n, float(phase))
@@ -197,7 +197,7 @@ def base_shear(storey, motion):
 
 @inlined
 def shear_bounds(plan, start, end, force, h, peak):
-    """Largest base shear at the end of a slip piece, whether it may be passed inside, and what bounds it.
+    """Largest base shear at the end of a slip segment, whether it may be passed inside, and what bounds it.
 
     The last is a bound on h^4 times its fourth derivative.
     """
@@ -214,7 +214,7 @@ def shear_bounds(plan, start, end, force, h, peak):
     fourth = dot4(k, fourth_u, c, fourth_v, kd, fourth_d, cd, fourth_e)
     s0 = base_shear(storey, start)
     s1 = base_shear(storey, end)
-    inside = crest(
+    inside = magnitude_bound(
         s0,
         h * dot4(k, start.v, c, a0, kd, start.e, cd, b0),
         s1,
@@ -227,13 +227,13 @@ def shear_bounds(plan, start, end, force, h, peak):
 
 @inlined
 def slip_peaks(plan, floor, brace, search, n, share, start, end, force, phase, h, peaks):
-    """Peaks over a slip piece: the floor's, and that of the base shear, in which the brace rings."""
+    """Peaks over a slip segment: the floor's, and that of the base shear, in which the brace rings."""
     storey = plan.storey
     f = plan.floor
     b = plan.brace
     k, c, kd, cd = storey.floor_stiffness, storey.floor_damping, storey.brace_stiffness, storey.brace_damping
     shear, see_s, fourth = shear_bounds(plan, start, end, force, h, peaks.shear)
-    if see_s and share == 0.0 and is_swift(plan):
+    if see_s and share == 0.0 and has_closed_form(plan):
         order = int(plan.floor_order)
         w = Weights(k, c, kd, 0.0)
         shear, sure = top_inside(f, b, order, True, w, start, end, force, h, fourth, shear)

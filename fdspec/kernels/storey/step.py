@@ -1,9 +1,9 @@
-"""One step of one history, piece by piece, from change of phase to change of phase.
+"""One step of one history, segment by segment, from change of phase to change of phase.
 
-A step is a record step or an equal part of one, at most a radian of the sticking storey.  A piece of
-slip is at most a radian of the brace.  The motion at both ends of a piece mostly tells whether the
+A step is a record step or an equal part of one, at most a radian of the sticking storey.  A segment of
+slip is at most a radian of the brace.  The motion at both ends of a segment mostly tells whether the
 phase changes on it, and leads to the instant (`mathematics/zero_crossing.py`).  Where it leaves doubt,
-and where a course in time is asked for, the piece is expanded in its Taylor series and searched; it ends
+and where a course in time is asked for, the segment is expanded in its Taylor series and searched; it ends
 where the phase changes.
 """
 
@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 
 from fdspec.compiler.options import inlined, inner
-from fdspec.kernels.friction import GOES_ON, phase_after_stop, reaction, sliding_force, sliding_kick
+from fdspec.kernels.friction import GOES_ON, onset_acceleration, phase_after_stop, reaction, sliding_force
 from fdspec.kernels.mathematics.oscillator import expand
 from fdspec.kernels.mathematics.polynomial_roots import value_slope
 from fdspec.kernels.mathematics.zero_crossing import CROSSES, UNCLEAR
@@ -44,11 +44,11 @@ from fdspec.kernels.types import (
     ANCHOR,
     EVENTS,
     INPUT,
-    KICK,
-    NO_KICK,
+    NO_ONSET,
     NON_FINITE_STATE,
     OFFSET,
     OK,
+    ONSET,
     PEAK_ACCELERATION,
     PEAK_BRACE,
     PEAK_DISPLACEMENT,
@@ -101,12 +101,12 @@ def begin_slip(storey, sign, motion, held):
     holds it, with damping its velocity does.
     """
     if storey.brace_mass > 0.0:
-        return Motion(motion.u, motion.v, motion.d, motion.v), sliding_kick(storey, held)
+        return Motion(motion.u, motion.v, motion.d, motion.v), onset_acceleration(storey, held)
     if storey.brace_damping > 0.0:
         lag = (abs(held) - storey.kinetic_slip_force) / storey.brace_damping
-        return Motion(motion.u, motion.v, motion.d, motion.v - sign * lag), NO_KICK
+        return Motion(motion.u, motion.v, motion.d, motion.v - sign * lag), NO_ONSET
     stretch = sliding_force(sign, storey.kinetic_slip_force) / storey.brace_stiffness
-    return Motion(motion.u, motion.v, stretch, 0.0), NO_KICK
+    return Motion(motion.u, motion.v, stretch, 0.0), NO_ONSET
 
 
 @inner
@@ -121,7 +121,7 @@ def begin(plan, start, s):
     storey = plan.storey
     s[:] = 0.0
     motion = start
-    kick = NO_KICK
+    onset = NO_ONSET
     phase = STICK
     held = reaction(storey, motion.u, motion.v, motion.d)
     s[STORED] = stored_energy(storey, motion)
@@ -141,7 +141,7 @@ def begin(plan, start, s):
         phase = 1 if motion.v > motion.e else -1
     elif abs(held) > storey.slip_force:
         phase = 1 if held > 0.0 else -1
-        motion, kick = begin_slip(storey, phase, motion, held)
+        motion, onset = begin_slip(storey, phase, motion, held)
         s[RELEASE] = spring_release(storey, start.d, motion.d)
         s[TRANSITIONS] = 1.0
         if storey.brace_mass == 0.0 and storey.brace_damping == 0.0 and phase * motion.v < 0.0:
@@ -158,7 +158,7 @@ def begin(plan, start, s):
     s[D] = motion.d
     s[E] = motion.e
     s[PHASE] = phase
-    s[KICK] = kick
+    s[ONSET] = onset
     peaks = with_instant(plan, phase, s[OFFSET], motion, Peaks(0.0, 0.0, 0.0, 0.0))
     s[PEAK_ACCELERATION] = peaks.acceleration
     s[PEAK_DISPLACEMENT] = peaks.displacement
@@ -186,7 +186,7 @@ def resume(plan, s):
 
 
 @inner
-def walk(
+def take_step(
     plan,
     forms,
     s,
@@ -194,8 +194,8 @@ def walk(
     a0,
     rate,
     certify,
-    calm,
-    brace_calm,
+    no_new_peak,
+    no_new_brace_peak,
     floor,
     brace,
     search,
@@ -210,35 +210,35 @@ def walk(
 
     forms: the losses of the plan, (N_FORMS,), read where certify.  at: time of the step's start, s;
     a0, rate: ground acceleration there (m/s2) and its rate (m/s3).  certify: whether the work of the viscous
-    dampers is kept.  calm: whether it is known that no peak of the floor or of base shear
-    is passed before the phase changes; brace_calm: the same of the brace force.
+    dampers is kept.  no_new_peak: whether it is known that no peak of the floor or of base shear
+    is passed before the phase changes; no_new_brace_peak: the same of the brace force.
     floor, brace, search: room for series, (TERMS,).  times, phases: changes of
     phase, as far as they have room.  traces (m, len(TRACES)): row k is
-    written at k dt_out once that is not later than ``reach`` past what has been walked; with m = 0
-    nothing is written, else every piece is expanded.
+    written at k dt_out once that is not later than ``reach`` past the state; with m = 0
+    nothing is written, else every segment is expanded.
     """
     storey = plan.storey
     limit = storey.slip_force
     free = limit == 0.0
     tracing = traces.shape[0] > 0
-    loose = storey.brace_mass == 0.0 and storey.brace_damping == 0.0
+    spring_only = storey.brace_mass == 0.0 and storey.brace_damping == 0.0
 
     motion = Motion(s[U], s[V], s[D], s[E])
     offset = s[OFFSET]
     phase = int(s[PHASE])
-    kick = s[KICK]
+    onset = s[ONSET]
     touching = int(s[TOUCHING])
     peaks = Peaks(s[PEAK_ACCELERATION], s[PEAK_DISPLACEMENT], s[PEAK_VELOCITY], s[PEAK_SHEAR])
     strongest = s[PEAK_BRACE]
     tau = 0.0
-    part = 0  # index of the piece within the step, on the grid of the phase
-    whole = True  # whether the piece begins on that grid
+    part = 0  # index of the segment within the step, on the grid of the phase
+    whole = True  # whether the segment begins on that grid
     at_one_instant = 0
     rings_below = False  # whether the brace force stays below its peak while this slip lasts
     while tau < plan.step:
-        pieces = 1 if phase == STICK else int(plan.slip_steps)
+        segments = 1 if phase == STICK else int(plan.slip_steps)
         order = int(plan.stick_order) if phase == STICK else int(plan.slip_order)
-        target = plan.step if part + 1 == pieces else (part + 1) * plan.slip_step
+        target = plan.step if part + 1 == segments else (part + 1) * plan.slip_step
         h = target - tau
         acceleration = ground_at(a0, rate, tau)
         force = forcing(plan, phase, offset, acceleration, rate)
@@ -251,7 +251,7 @@ def walk(
         swept = swung = 0.0
         if not tracing and touching == STICK:
             found, sign, length, end, swept, swung = at_once(
-                plan, phase, whole, motion, force, offset, kick, h
+                plan, phase, whole, motion, force, offset, onset, h
             )
         if found != UNCLEAR:
             happens = found == CROSSES
@@ -271,14 +271,14 @@ def walk(
                 expand(floor, order, motion.u, motion.v, b.g, b.w2, force.p0, force.p1, h)
                 b = plan.brace
                 expand(brace, order, motion.d, motion.e, b.g, b.w2, force.b0, force.b1, h)
-                x = search_slip(floor, brace, search, order, h, phase, kick)
+                x = search_slip(floor, brace, search, order, h, phase, onset)
                 sign = phase
             happens = x <= 1.0
             share = min(x, 1.0)
             if tracing:
                 so_far = Energy(s[INPUT], s[VISCOUS], s[RELEASE])
-                walked = (tau + share * h if happens else target) + reach
-                while written < traces.shape[0] and written * dt_out - at <= walked:
+                until = (tau + share * h if happens else target) + reach
+                while written < traces.shape[0] and written * dt_out - at <= until:
                     y = min(max((written * dt_out - at - tau) / h, 0.0), share)
                     write_trace(
                         plan,
@@ -311,27 +311,27 @@ def walk(
             h *= share
 
         if h > 0.0:
-            calm = calm and not happens
-            brace_calm = brace_calm and not happens
-            if phase == STICK and not (calm and brace_calm):
+            no_new_peak = no_new_peak and not happens
+            no_new_brace_peak = no_new_brace_peak and not happens
+            if phase == STICK and not (no_new_peak and no_new_brace_peak):
                 # The brace's first: it leaves the series as it is.  What both bounds need is worked out once.
                 strongest = stick_brace_peak(
                     plan, floor, search, order, share, motion, end, force, offset, h, strongest
                 )
                 peaks = stick_peaks(plan, floor, search, order, share, motion, end, force, offset, h, peaks)
             elif phase != STICK:
-                if not (brace_calm or rings_below):
+                if not (no_new_brace_peak or rings_below):
                     strongest = slip_brace_peak(
                         plan, brace, search, order, share, motion, end, force, h, strongest
                     )
-                if not calm:
+                if not no_new_peak:
                     peaks = slip_peaks(
                         plan, floor, brace, search, order, share, motion, end, force, phase, h, peaks
                     )
             motion = end
         touching = STICK
         if happens or phase * (motion.v - motion.e) > UNRESOLVED * (abs(motion.v) + abs(motion.e)):
-            kick = NO_KICK
+            onset = NO_ONSET
         if not happens:
             part += 1
             whole = True
@@ -348,11 +348,11 @@ def walk(
         if phase == STICK:
             s[ANCHOR] = offset
             spring = motion.d
-            motion, kick = begin_slip(storey, sign, motion, limit)
+            motion, onset = begin_slip(storey, sign, motion, limit)
             s[RELEASE] += spring_release(storey, spring, motion.d)
             phase = sign
         else:
-            v = 0.0 if loose else motion.v
+            v = 0.0 if spring_only else motion.v
             motion = Motion(motion.u, v, motion.d, v)
             slipped = sign * (motion.u - motion.d - s[ANCHOR])
             held = reaction(storey, motion.u, motion.v, motion.d)
@@ -362,7 +362,7 @@ def walk(
             if free and after == STICK:
                 after = -sign
             if after == GOES_ON:
-                kick = sliding_kick(storey, held)
+                onset = onset_acceleration(storey, held)
                 changes = False
             else:
                 s[TRAVEL] += slipped
@@ -375,7 +375,7 @@ def walk(
                     if storey.brace_mass == 0.0:
                         touching = sign
                 elif storey.brace_mass > 0.0:
-                    kick = sliding_kick(storey, held)
+                    onset = onset_acceleration(storey, held)
         if changes:
             k = int(s[TRANSITIONS])
             if k < times.size:
@@ -384,21 +384,21 @@ def walk(
             s[TRANSITIONS] = k + 1.0
         peaks = with_instant(plan, phase, offset, motion, peaks)
         s[PEAK_SLIP] = max(s[PEAK_SLIP], abs(motion.u - motion.d))
-        pieces = 1 if phase == STICK else int(plan.slip_steps)
-        part = 0 if phase == STICK else min(int(tau / plan.slip_step), pieces - 1)
-        if part + 1 < pieces and (part + 1) * plan.slip_step <= tau:
+        segments = 1 if phase == STICK else int(plan.slip_steps)
+        part = 0 if phase == STICK else min(int(tau / plan.slip_step), segments - 1)
+        if part + 1 < segments and (part + 1) * plan.slip_step <= tau:
             part += 1
         whole = False
         rings_below = False
         if phase != STICK:
             force = forcing(plan, phase, offset, ground_at(a0, rate, tau), rate)
             rings_below = slip_brace_bound(plan, motion, force.b0, force.b1, plan.step - tau) <= strongest
-        brace_calm = False
+        no_new_brace_peak = False
 
-    if calm:
+    if no_new_peak:
         # Bounds on what lies inside a step leave out its end, which the next step's would tell of.
         peaks = with_instant(plan, phase, offset, motion, peaks)
-    if brace_calm:
+    if no_new_brace_peak:
         strongest = max(strongest, abs(brace_force(storey, motion)))
     if not abs(motion.u) + abs(motion.v) + abs(motion.d) + abs(motion.e) < math.inf:
         s[STATUS] = NON_FINITE_STATE
@@ -408,7 +408,7 @@ def walk(
     s[E] = motion.e
     s[OFFSET] = offset
     s[PHASE] = phase
-    s[KICK] = kick
+    s[ONSET] = onset
     s[TOUCHING] = touching
     s[PEAK_ACCELERATION] = peaks.acceleration
     s[PEAK_DISPLACEMENT] = peaks.displacement
@@ -422,7 +422,7 @@ def walk(
 def come_to_rest(plan, forms, s, parts, certify, floor, brace, search, times, phases, traces):
     """Go on with the ground at rest until nothing can slip any more; return the record steps taken.
 
-    parts: steps of the plan in each of them.  times, phases, traces: as for `walk`, and without room.
+    parts: steps of the plan in each of them.  times, phases, traces: as for `take_step`, and without room.
     """
     taken = 0
     while s[STATUS] == OK and not is_at_rest(plan, s):
@@ -430,7 +430,7 @@ def come_to_rest(plan, forms, s, parts, certify, floor, brace, search, times, ph
             s[STATUS] = TRANSITION_CAP_REACHED
             break
         for _ in range(parts):
-            walk(
+            take_step(
                 plan,
                 forms,
                 s,

@@ -36,7 +36,7 @@ def held_force(plan, u, v, offset):
 
 @inlined
 def stick_course(plan, start, end, force, offset, h):
-    """What the reaction lacks to the slip force on the side to which it tends over the piece.
+    """What the reaction lacks to the slip force on the side to which it tends over the segment.
 
     Returned with this `Course`: the side, and whether the slip force surely is not reached on the other one.
     """
@@ -68,7 +68,7 @@ def stick_course(plan, start, end, force, offset, h):
 
 @inlined
 def stick_verdict(plan, start, end, force, offset, h):
-    """Whether the reaction stays within the slip force on the piece, reaches it, or neither is sure.
+    """Whether the reaction stays within the slip force on the segment, reaches it, or neither is sure.
 
     Returned with the verdict: the side on which it is reached, after how long, nearly (s), and until when
     it is reached just once.
@@ -84,7 +84,7 @@ def stick_verdict(plan, start, end, force, offset, h):
 
 @inlined
 def stick_ahead(plan, start, force, offset, t):
-    """Motion at the time t of a piece, and the integral of displacement until then."""
+    """Motion at the time t of a segment, and the integral of displacement until then."""
     b = plan.stick
     u, v, swept = ahead(start.u, start.v, b.g, b.w2, force.p0, force.p1, t, int(plan.stick_order))
     return Motion(u, v, u - offset, v), swept
@@ -132,9 +132,9 @@ def locate_slip(plan, start, force, offset, side, t, h):
 
 @inner
 def search_stick(plan, floor, gap, n, h, offset, touching):
-    """Fraction of the expanded piece at which the reaction reaches the slip force, and its sign.
+    """Fraction of the expanded segment at which the reaction reaches the slip force, and its sign.
 
-    ``touching`` is the sign of a reaction that stands at the kinetic slip force when the piece begins (a
+    ``touching`` is the sign of a reaction that stands at the kinetic slip force when the segment begins (a
     massless brace that has just stopped), else 0.  Next to a displacement that is large the static slip force
     may lie closer than rounding, so it is not worked out anew.
     """
@@ -159,7 +159,7 @@ def search_stick(plan, floor, gap, n, h, offset, touching):
 
 @inlined
 def stick_peaks(plan, floor, search, n, share, start, end, force, offset, h, peaks):
-    """Peaks over a stick piece; base shear is the inertia of floor and brace as one."""
+    """Peaks over a stick segment; base shear is the inertia of floor and brace as one."""
     return floor_peaks(
         plan.stick, plan.lift * offset, plan.mass, floor, search, n, share, start, end, force, h, peaks
     )

@@ -1,10 +1,10 @@
 """Strain energy of single-storey histories: its area under the history and its maximum.
 
 The energy is that of Filiatrault and Cherry's index, elastic and in every member, columns and brace alike:
-U = k_f u^2 / 2 + k_d d^2 / 2.  Each step is walked as ever; between the changes of phase found on it the
-motion is then gone through once more.  Over a whole piece the integral of U is a quadratic form of the state
-at its start, worked out once; over any other piece U is a polynomial, integrated term by term.  A maximum
-is looked for only where bounds on both displacements leave room for one.
+U = k_f u^2 / 2 + k_d d^2 / 2.  Each step is taken as ever; between the changes of phase found on it the
+motion is then gone through once more.  Over a whole segment the integral of U is a quadratic form of the
+state at its start, worked out once; over any other segment U is a polynomial, integrated term by term.  A
+maximum is looked for only where bounds on both displacements leave room for one.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from fdspec.compiler.records import read
 from fdspec.kernels.mathematics.oscillator import TERMS, advance, area, expand, square_integral
 from fdspec.kernels.mathematics.polynomial_roots import largest_magnitude, value_slope
 from fdspec.kernels.mathematics.quadrature import series_area, square_form
-from fdspec.kernels.storey.bounds import crest, floor_fourths, forcing, relative_acceleration
+from fdspec.kernels.storey.bounds import floor_fourths, forcing, magnitude_bound, relative_acceleration
 from fdspec.kernels.storey.constants import plan, steps_per_sample
 from fdspec.kernels.storey.energy import N_FORMS, loss_at
 from fdspec.kernels.storey.slip import brace_fourths
-from fdspec.kernels.storey.step import begin, begin_slip, walk
+from fdspec.kernels.storey.step import begin, begin_slip, take_step
 from fdspec.kernels.types import (
     N_STATE,
     OFFSET,
@@ -49,8 +49,8 @@ ORDER: Final = TERMS - 2
 """Order of the series of U: its phase is twice that of the motion, 2 rad at most."""
 
 N_SQUARES: Final = 30
-"""Room for the quadratic forms of the integral of a displacement squared: of a whole piece of stick, then of
-the floor and of the brace over one of slip."""
+"""Room for the quadratic forms of the integral of a displacement squared: of a whole segment of stick, then
+of the floor and of the brace over one of slip."""
 
 
 @inner
@@ -75,7 +75,7 @@ def strain(storey, u, d):
 
 @inner
 def expand_both(scheme, phase, offset, motion, force, h, floor, brace):
-    """Make floor and brace the series of both displacements on a piece of length h."""
+    """Make floor and brace the series of both displacements on a segment of length h."""
     b = scheme.stick if phase == STICK else scheme.floor
     expand(floor, ORDER, motion.u, motion.v, b.g, b.w2, force.p0, force.p1, h)
     if phase == STICK:
@@ -100,8 +100,8 @@ def strain_series(storey, floor, brace, out):
 
 
 @inner
-def whole_piece(scheme, squares, phase, offset, motion, force, floor, brace, out, most):
-    """Take a whole piece; return its end, the integral of U and the greater of its maximum and ``most``."""
+def whole_segment(scheme, squares, phase, offset, motion, force, floor, brace, out, most):
+    """Take a whole segment; return its end, the integral of U and the greater of its maximum and ``most``."""
     storey = scheme.storey
     kf, kd = storey.floor_stiffness, storey.brace_stiffness
     if phase == STICK:
@@ -129,8 +129,8 @@ def whole_piece(scheme, squares, phase, offset, motion, force, floor, brace, out
         b0 = relative_acceleration(scheme.brace, motion.d, motion.e, force.b0)
         fourth_d, _ = brace_fourths(scheme, motion, b0, force, h)
     most = max(most, strain(storey, end.u, end.d))
-    reach_u = crest(motion.u, h * motion.v, end.u, h * end.v, fourth_u)
-    reach_d = crest(motion.d, h * motion.e, end.d, h * end.e, fourth_d)
+    reach_u = magnitude_bound(motion.u, h * motion.v, end.u, h * end.v, fourth_u)
+    reach_d = magnitude_bound(motion.d, h * motion.e, end.d, h * end.e, fourth_d)
     if strain(storey, reach_u, reach_d) > most:
         expand_both(scheme, phase, offset, motion, force, h, floor, brace)
         strain_series(storey, floor, brace, out)
@@ -139,8 +139,8 @@ def whole_piece(scheme, squares, phase, offset, motion, force, floor, brace, out
 
 
 @inner
-def part_of_piece(scheme, phase, offset, motion, force, h, floor, brace, out, most):
-    """Take a piece of any length h up to a whole one; return what :func:`whole_piece` does."""
+def part_of_segment(scheme, phase, offset, motion, force, h, floor, brace, out, most):
+    """Take a segment of any length h up to a whole one; return what :func:`whole_segment` does."""
     expand_both(scheme, phase, offset, motion, force, h, floor, brace)
     strain_series(scheme.storey, floor, brace, out)
     u, rise = value_slope(floor, 0, ORDER, 1.0)
@@ -163,12 +163,12 @@ def strain_of_phase(
         force = forcing(scheme, phase, offset, a0 + rate * tau, rate)
         h = until - tau
         if h >= whole:
-            motion, done, most = whole_piece(
+            motion, done, most = whole_segment(
                 scheme, squares, phase, offset, motion, force, floor, brace, out, most
             )
             tau += whole
         else:
-            motion, done, most = part_of_piece(
+            motion, done, most = part_of_segment(
                 scheme, phase, offset, motion, force, h, floor, brace, out, most
             )
             tau = until
@@ -203,7 +203,7 @@ def strain_of_history(
     parts = steps_per_sample(storey, dt, radians)
     scheme = plan(storey, dt / parts, radians)
     put_squares(scheme, squares)
-    loose = storey.brace_mass == 0.0 and storey.brace_damping == 0.0
+    spring_only = storey.brace_mass == 0.0 and storey.brace_damping == 0.0
     begin(scheme, Motion(0.0, 0.0, 0.0, 0.0), s)
     total = 0.0
     most = 0.0
@@ -215,7 +215,7 @@ def strain_of_history(
             for k in range(N_STATE):
                 start[k] = s[k]
             s[TRANSITIONS] = 0.0
-            walk(
+            take_step(
                 scheme,
                 no_forms,
                 s,
@@ -265,7 +265,7 @@ def strain_of_history(
                     motion, _ = begin_slip(storey, phases[k], motion, storey.slip_force)
                     most = max(most, strain(storey, motion.u, motion.d))
                 else:
-                    v = 0.0 if loose else motion.v
+                    v = 0.0 if spring_only else motion.v
                     motion = Motion(motion.u, v, motion.d, v)
                     offset = motion.u - motion.d
                 phase = int(phases[k])
