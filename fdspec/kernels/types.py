@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Final, NamedTuple
 
+from fdspec.compiler.positions import positions
+
 STICK: Final = 0
 """Phase: floor and brace move as one.  The slip phases are +1 and -1, the sign of the sliding velocity."""
 
@@ -90,34 +92,16 @@ class Energy(NamedTuple):
     release: float
 
 
-U: Final = 0
-V: Final = 1
-D: Final = 2
-E: Final = 3
-OFFSET: Final = 4
-PHASE: Final = 5
-ONSET: Final = 6
-TOUCHING: Final = 7
-PEAK_ACCELERATION: Final = 8
-PEAK_DISPLACEMENT: Final = 9
-PEAK_VELOCITY: Final = 10
-PEAK_SHEAR: Final = 11
-INPUT: Final = 12
-VISCOUS: Final = 13
-RELEASE: Final = 14
-ANCHOR: Final = 15
-TRAVEL: Final = 16
-TRANSITIONS: Final = 17
-EVENTS: Final = 18
-STATUS: Final = 19
-STORED: Final = 20
-PEAK_SLIP: Final = 21
-PEAK_BRACE: Final = 22
-N_STATE: Final = 23
+STATE = positions(
+    "u v d e offset phase onset touching peak_acceleration peak_displacement peak_velocity peak_shear "
+    "input viscous release anchor travel transitions events status stored peak_slip peak_brace".split()
+)
 """Places in the state of a history: floor and brace; slip offset of the stick phase; phase; how the next
 segment begins (sliding acceleration of a new slip, side at which the reaction stands at the slip force);
 peaks; work of the ground, of the dampers, of releases; u - d where the slip began, slip travel before it;
 counts; status; energy at the start; largest slip offset where slip began or stopped; largest brace force."""
 
+N_STATE: Final = len(STATE)
+
 NO_ONSET: Final = -1.0
-"""ONSET where no slip begins with the next segment."""
+"""Onset in the state where no slip begins with the next segment."""

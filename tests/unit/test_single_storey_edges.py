@@ -14,7 +14,7 @@ from numba import config
 import fdspec
 from fdspec.errors import IntegrationError
 from fdspec.kernels.storey.history import RESULT, RESULTS, finish
-from fdspec.kernels.types import ENERGY_NOT_CLOSED, INPUT, N_STATE, OK, PEAK_VELOCITY, Storey
+from fdspec.kernels.types import ENERGY_NOT_CLOSED, N_STATE, OK, STATE, Storey
 
 AT_REST = fdspec.GroundMotion(np.zeros(3), 0.01, name="rest")
 
@@ -154,11 +154,11 @@ def test_the_energy_error_is_measured_by_the_energy_in_play() -> None:
 def test_a_balance_that_does_not_close_is_a_status() -> None:
     storey = Storey(20e3, 0.0, 3e6, 50.0, 0.0, 12e6, 1e4, 1e4)
     s, result = np.zeros(N_STATE), np.empty(len(RESULTS))
-    s[INPUT], s[PEAK_VELOCITY] = 1.0, 0.1
+    s[STATE.input], s[STATE.peak_velocity] = 1.0, 0.1
     finish(storey, s, True, result)
     assert result[RESULT.energy_error] == pytest.approx(1.0 / (0.5 * 20e3 * 0.1**2))
     assert result[RESULT.status] == ENERGY_NOT_CLOSED
-    s[INPUT] = 1e-5
+    s[STATE.input] = 1e-5
     finish(storey, s, True, result)
     assert result[RESULT.status] == OK
 

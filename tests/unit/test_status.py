@@ -11,16 +11,7 @@ from fdspec.kernels.mathematics.oscillator import TERMS
 from fdspec.kernels.storey import step as stepping
 from fdspec.kernels.storey.constants import RADIANS, plan
 from fdspec.kernels.storey.output import TRACES
-from fdspec.kernels.types import (
-    N_STATE,
-    NON_FINITE_STATE,
-    OK,
-    STATUS,
-    TRANSITION_CAP_REACHED,
-    TRANSITIONS,
-    Motion,
-    Storey,
-)
+from fdspec.kernels.types import N_STATE, NON_FINITE_STATE, OK, STATE, TRANSITION_CAP_REACHED, Motion, Storey
 
 AXES = {"period": [0.5], "pretension": [1e4, 1e5, np.inf], "stiffness_ratio": [4.0]}
 
@@ -58,7 +49,7 @@ def test_a_history_without_end_is_given_up(monkeypatch: pytest.MonkeyPatch) -> N
         rate = (ground[1] - ground[0]) / 0.01
         flags = False, False, False
         take_step(scheme, np.empty(0), s, 0.01 * k, ground[0], rate, *flags, *series, *none, 0.0, 0, 0.0)
-        if s[STATUS] != OK:
+        if s[STATE.status] != OK:
             break
-    assert s[STATUS] == TRANSITION_CAP_REACHED
-    assert s[TRANSITIONS] <= 3
+    assert s[STATE.status] == TRANSITION_CAP_REACHED
+    assert s[STATE.transitions] <= 3

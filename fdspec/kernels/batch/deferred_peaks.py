@@ -11,41 +11,14 @@ from __future__ import annotations
 import numpy as np
 
 from fdspec.compiler.options import inner, seldom
-from fdspec.kernels.batch.layout import (
-    BOUND_B,
-    BOUND_Q,
-    BOUND_U,
-    BOUND_V,
-    FROM_D,
-    FROM_E,
-    FROM_U,
-    FROM_V,
-    LIFT,
-    PUSH_FLOOR,
-    WIDTH,
-    at,
-)
+from fdspec.kernels.batch.layout import ROW, WIDTH, at
 from fdspec.kernels.friction import sliding_force
 from fdspec.kernels.mathematics.oscillator import series_order
 from fdspec.kernels.storey.bounds import floor_peaks
 from fdspec.kernels.storey.demands import step_brace_peak
-from fdspec.kernels.types import (
-    OFFSET,
-    PEAK_ACCELERATION,
-    PEAK_BRACE,
-    PEAK_DISPLACEMENT,
-    PEAK_SHEAR,
-    PEAK_VELOCITY,
-    PHASE,
-    STICK,
-    Force,
-    Motion,
-    Peaks,
-    U,
-    V,
-)
+from fdspec.kernels.types import STICK, Force, Motion, Peaks
 
-QUANTITIES = np.array([BOUND_Q, BOUND_U, BOUND_V])
+QUANTITIES = np.array([ROW.bound_q, ROW.bound_u, ROW.bound_v])
 """Rows of the bounds: acceleration (and base shear, its multiple while sticking), displacement, velocity."""
 
 BOUND, SLIPS, START_U, START_V, STOP_U, STOP_V, BASE, GROUND, RATE = range(9)
@@ -54,16 +27,16 @@ N_DEFERRED = 9
 
 
 HELD_OFFSET = 6
-"""Place of the slip offset in the kept step of the brace force, whose others are those of a crest."""
+"""Place of the slip offset in the kept step of the brace force, whose others are those of any kept step."""
 N_BRACE = 9
 
 
 @inner
 def least_peak(p, quantity, lane, slips, mass):
     """The peak that a bound must pass to matter."""
-    top = at(p, PEAK_ACCELERATION + quantity, lane)
+    top = at(p, ROW.peak_acceleration + quantity, lane)
     if quantity == 0 and slips == 0.0:
-        return min(top, at(p, PEAK_SHEAR, lane) / mass)
+        return min(top, at(p, ROW.peak_shear, lane) / mass)
     return top
 
 
@@ -71,10 +44,10 @@ def least_peak(p, quantity, lane, slips, mass):
 def search_deferred(p, lane, plan, kept, floor, search):
     """Search a kept step and put the lane's peaks right."""
     peaks = Peaks(
-        at(p, PEAK_ACCELERATION, lane),
-        at(p, PEAK_DISPLACEMENT, lane),
-        at(p, PEAK_VELOCITY, lane),
-        at(p, PEAK_SHEAR, lane),
+        at(p, ROW.peak_acceleration, lane),
+        at(p, ROW.peak_displacement, lane),
+        at(p, ROW.peak_velocity, lane),
+        at(p, ROW.peak_shear, lane),
     )
     branch, mass = plan.stick, plan.mass
     if kept[SLIPS] != 0.0:
@@ -93,17 +66,18 @@ def search_deferred(p, lane, plan, kept, floor, search):
         plan.step,
         peaks,
     )
-    p[PEAK_ACCELERATION * WIDTH + lane] = peaks.acceleration
-    p[PEAK_DISPLACEMENT * WIDTH + lane] = peaks.displacement
-    p[PEAK_VELOCITY * WIDTH + lane] = peaks.velocity
-    p[PEAK_SHEAR * WIDTH + lane] = peaks.shear
+    p[ROW.peak_acceleration * WIDTH + lane] = peaks.acceleration
+    p[ROW.peak_displacement * WIDTH + lane] = peaks.displacement
+    p[ROW.peak_velocity * WIDTH + lane] = peaks.velocity
+    p[ROW.peak_shear * WIDTH + lane] = peaks.shear
     kept[BOUND] = 0.0
 
 
 @inner
 def defer_peaks(p, lane, plan, deferred, ground, rate, floor, search):
     """Keep the uneventful step that a lane has just taken for each quantity whose peak it may hold."""
-    phase = at(p, PHASE, lane)
+    seldom()
+    phase = at(p, ROW.phase, lane)
     slips = 0.0 if phase == STICK else 1.0
     for quantity in range(3):
         bound = at(p, QUANTITIES[quantity], lane)
@@ -116,14 +90,14 @@ def defer_peaks(p, lane, plan, deferred, ground, rate, floor, search):
                 continue
         kept[BOUND] = bound
         kept[SLIPS] = slips
-        kept[START_U] = at(p, FROM_U, lane)
-        kept[START_V] = at(p, FROM_V, lane)
-        kept[STOP_U] = at(p, U, lane)
-        kept[STOP_V] = at(p, V, lane)
+        kept[START_U] = at(p, ROW.from_u, lane)
+        kept[START_V] = at(p, ROW.from_v, lane)
+        kept[STOP_U] = at(p, ROW.u, lane)
+        kept[STOP_V] = at(p, ROW.v, lane)
         if phase == STICK:
-            kept[BASE] = at(p, LIFT, lane) * at(p, OFFSET, lane)
+            kept[BASE] = at(p, ROW.lift, lane) * at(p, ROW.offset, lane)
         else:
-            kept[BASE] = sliding_force(-phase, at(p, PUSH_FLOOR, lane))
+            kept[BASE] = sliding_force(-phase, at(p, ROW.push_floor, lane))
         kept[GROUND] = ground
         kept[RATE] = rate
 
@@ -142,9 +116,9 @@ def search_deferred_brace(p, lane, plan, deferred_brace, room, search):
     """Search the step kept for the brace force, if it still matters."""
     seldom()
     kept = deferred_brace[lane]
-    if kept[BOUND] <= at(p, PEAK_BRACE, lane):
+    if kept[BOUND] <= at(p, ROW.peak_brace, lane):
         return
-    p[PEAK_BRACE * WIDTH + lane] = step_brace_peak(
+    p[ROW.peak_brace * WIDTH + lane] = step_brace_peak(
         plan,
         int(kept[SLIPS]),
         kept[START_U],
@@ -156,7 +130,7 @@ def search_deferred_brace(p, lane, plan, deferred_brace, room, search):
         kept[RATE],
         room,
         search,
-        at(p, PEAK_BRACE, lane),
+        at(p, ROW.peak_brace, lane),
     )
     kept[BOUND] = 0.0
 
@@ -165,16 +139,16 @@ def search_deferred_brace(p, lane, plan, deferred_brace, room, search):
 def defer_brace_peak(p, lane, plan, deferred_brace, ground, rate, room, search):
     """Keep the uneventful step that a lane has just taken, whose bound on the brace force passes its peak."""
     seldom()
-    bound = at(p, BOUND_B, lane)
+    bound = at(p, ROW.bound_b, lane)
     search_deferred_brace(p, lane, plan, deferred_brace, room, search)
-    if bound <= at(p, PEAK_BRACE, lane):
+    if bound <= at(p, ROW.peak_brace, lane):
         return
-    phase = at(p, PHASE, lane)
+    phase = at(p, ROW.phase, lane)
     kept = deferred_brace[lane]
     kept[BOUND] = bound
     kept[SLIPS] = phase
-    kept[START_U] = at(p, FROM_U, lane) if phase == STICK else at(p, FROM_D, lane)
-    kept[START_V] = at(p, FROM_V, lane) if phase == STICK else at(p, FROM_E, lane)
-    kept[HELD_OFFSET] = at(p, OFFSET, lane)
+    kept[START_U] = at(p, ROW.from_u, lane) if phase == STICK else at(p, ROW.from_d, lane)
+    kept[START_V] = at(p, ROW.from_v, lane) if phase == STICK else at(p, ROW.from_e, lane)
+    kept[HELD_OFFSET] = at(p, ROW.offset, lane)
     kept[GROUND] = ground
     kept[RATE] = rate

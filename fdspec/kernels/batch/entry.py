@@ -23,9 +23,8 @@ from fdspec.kernels.batch.deferred_peaks import (
     search_deferred_brace,
 )
 from fdspec.kernels.batch.layout import (
-    BOUND_B,
-    HELD,
     N_ROWS,
+    ROW,
     WIDTH,
     Stride,
     at,
@@ -37,13 +36,13 @@ from fdspec.kernels.batch.layout import (
     start_lane,
     take_state,
 )
-from fdspec.kernels.batch.uneventful import slip_lanes, slip_losses, stick_lanes, stick_losses
+from fdspec.kernels.batch.uneventful import all_losses, slip_lanes, stick_lanes, stick_losses
 from fdspec.kernels.mathematics.oscillator import TERMS, step_map
 from fdspec.kernels.storey.constants import Plan, plan, steps_per_sample
 from fdspec.kernels.storey.energy import N_FORMS, put_losses
 from fdspec.kernels.storey.history import finish, settle_at_rest
 from fdspec.kernels.storey.step import come_to_rest, take_step
-from fdspec.kernels.types import N_STATE, OK, PEAK_BRACE, PHASE, STATUS, STICK, Storey
+from fdspec.kernels.types import N_STATE, OK, STATE, STICK, Storey
 
 LINE: Final = 8
 """Numbers in a line of the cache: a vector of 512 bits that begins elsewhere lies across two of them."""
@@ -111,7 +110,7 @@ def run_lanes(plans, forms, stride, ground, dt, parts, certify, free_steps, at_r
         start_lane(p, lane)
         if lane >= count:
             rest_lane(p, lane)
-        elif p[PHASE * WIDTH + lane] != STICK:
+        elif p[ROW.phase * WIDTH + lane] != STICK:
             slipping += 1
     step = dt / parts
     for i in range(ground.size - 1 + free_steps):
@@ -130,17 +129,17 @@ def run_lanes(plans, forms, stride, ground, dt, parts, certify, free_steps, at_r
                 slipping_eventful, slipping_to_defer = slip_lanes(p, step, start, rate)
                 eventful |= slipping_eventful
                 to_defer |= slipping_to_defer
-            if certify and slipping < WIDTH:
+            if certify and slipping == 0:
                 stick_losses(p, start, rate, eventful)
-            if certify and slipping > 0:
-                slip_losses(p, start, rate, eventful)
+            elif certify:
+                all_losses(p, start, rate, eventful)
             busy = (eventful | to_defer) & real
             while busy != 0:
                 lane = lowest(busy)
                 busy &= busy - 1
                 if to_defer >> lane & 1:
                     defer_peaks(p, lane, read(Plan, plans, lane), deferred, start, rate, floor, search)
-                    if at(p, BOUND_B, lane) > at(p, PEAK_BRACE, lane):
+                    if at(p, ROW.bound_b, lane) > at(p, ROW.peak_brace, lane):
                         defer_brace_peak(
                             p, lane, read(Plan, plans, lane), deferred_brace, start, rate, floor, search
                         )
@@ -149,7 +148,7 @@ def run_lanes(plans, forms, stride, ground, dt, parts, certify, free_steps, at_r
                     if certify:
                         for k in range(N_FORMS):
                             losses[k] = forms[lane, k]
-                    before = s[PHASE] != STICK
+                    before = s[STATE.phase] != STICK
                     take_step(
                         read(Plan, plans, lane),
                         losses,
@@ -171,8 +170,8 @@ def run_lanes(plans, forms, stride, ground, dt, parts, certify, free_steps, at_r
                         0.0,
                     )
                     put_state(p, lane, s)
-                    after = s[PHASE] != STICK
-                    if s[STATUS] != OK:
+                    after = s[STATE.phase] != STICK
+                    if s[STATE.status] != OK:
                         for row in range(N_STATE):
                             given_up[lane, row] = s[row]
                         rest_lane(p, lane)
@@ -182,10 +181,10 @@ def run_lanes(plans, forms, stride, ground, dt, parts, certify, free_steps, at_r
         search_all_deferred(p, lane, read(Plan, plans, lane), deferred, floor, search)
         search_deferred_brace(p, lane, read(Plan, plans, lane), deferred_brace, floor, search)
         take_state(p, lane, s)
-        if given_up[lane, STATUS] != OK:
+        if given_up[lane, ROW.status] != OK:
             for row in range(N_STATE):
                 s[row] = given_up[lane, row]
-        if at_rest and s[STATUS] == OK:
+        if at_rest and s[STATE.status] == OK:
             for k in range(N_FORMS):
                 losses[k] = forms[lane, k]
             come_to_rest(
@@ -202,6 +201,6 @@ def run_lanes(plans, forms, stride, ground, dt, parts, certify, free_steps, at_r
                 traces,
             )
         finish(read(Plan, plans, lane).storey, s, certify, results[lane])
-        if at_rest and s[STATUS] == OK:
+        if at_rest and s[STATE.status] == OK:
             settle_at_rest(read(Plan, plans, lane).storey, s, results[lane])
-        held[lane] = p[HELD * WIDTH + lane]
+        held[lane] = p[ROW.held * WIDTH + lane]

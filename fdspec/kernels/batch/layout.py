@@ -12,28 +12,13 @@ import math
 from typing import NamedTuple
 
 from fdspec.compiler.options import inlined, inner
+from fdspec.compiler.positions import positions
 from fdspec.compiler.records import size_of
 from fdspec.kernels.mathematics.oscillator import StepMap
 from fdspec.kernels.mathematics.polynomial_roots import TAIL
 from fdspec.kernels.storey.constants import Plan, is_slow
 from fdspec.kernels.storey.energy import STICK_FORM, STRIDE_FORM
-from fdspec.kernels.types import (
-    N_STATE,
-    NO_ONSET,
-    OFFSET,
-    ONSET,
-    PEAK_ACCELERATION,
-    PEAK_BRACE,
-    PEAK_DISPLACEMENT,
-    PEAK_SHEAR,
-    PEAK_VELOCITY,
-    PHASE,
-    STICK,
-    D,
-    E,
-    U,
-    V,
-)
+from fdspec.kernels.types import N_STATE, NO_ONSET, STATE, STICK
 
 WIDTH = 16
 """Histories side by side: two registers of AVX-512, four of AVX2, so that one hides another's latency."""
@@ -51,28 +36,29 @@ N_PLAN = size_of(Plan)
 
 N_STRIDE = size_of(Stride)
 
-# Rows behind the state: the motion at the step's start, bounds on peaks in it, the largest reaction so far.
-_AT = N_STATE
-FROM_U, FROM_V, FROM_D, FROM_E, BOUND_U, BOUND_V, BOUND_Q, BOUND_S, BOUND_B, HELD = range(_AT, _AT + 10)
-_AT += 10
-# Constants of the storey.
-LIMIT, PUSH_FLOOR, PUSH_BRACE, LIFT, MASS, FLOOR_MASS, BRACE_MASS, LIGHT, ALONE = range(_AT, _AT + 9)
-_AT += 9
-# Floor and brace as one: rates, weights in the bound on free motion, and that bound's weights.
-S_G, S_W2, S_DRIFT, S_SLOW, S_TAIL_U, S_TAIL_V, S_TAIL_Q = range(_AT, _AT + 7)
-_AT += 7
-HOLD_U, HOLD_V, HOLD_O, HOLD_TAIL = range(_AT, _AT + 4)
-_AT += 4
-# The floor alone, and the brace alone.
-F_G, F_W2, F_DRIFT, F_SLOW, F_TAIL_U, F_TAIL_V, F_TAIL_Q = range(_AT, _AT + 7)
-_AT += 7
-B_G, B_W2, B_DRIFT, B_SLOW, B_OMEGA, B_GROUND, B_TAIL_E, B_TAIL_Q = range(_AT, _AT + 8)
-_AT += 8
-# Step maps, twelve rows each, and quadratic forms of the viscous work, ten rows each.
-S_MAP, F_MAP, B_MAP, S_LOSS, F_LOSS = _AT, _AT + 12, _AT + 24, _AT + 36, _AT + 46
-_AT += 56
-S_DAMP, F_DAMP = _AT, _AT + 1
-N_ROWS = _AT + 2
+_MAPS = ("stick_map", "floor_map", "brace_map")
+_LOSSES = ("stick_loss", "floor_loss")
+_NAMES = (
+    *STATE._fields,
+    # The motion at the step's start, bounds on peaks in it, the largest reaction so far.
+    *"from_u from_v from_d from_e bound_u bound_v bound_q bound_s bound_b held".split(),
+    # Constants of the storey.
+    *"limit push_floor push_brace lift mass floor_mass brace_mass alone".split(),
+    *"hold_u hold_v hold_offset hold_tail stick_damp floor_damp".split(),
+    # Floor and brace as one, the floor alone: rates, weights in the bound on free motion, its own weights.
+    *"stick_g stick_w2 stick_drift stick_slow stick_tail_u stick_tail_v stick_tail_q".split(),
+    *"floor_g floor_w2 floor_drift floor_slow floor_tail_u floor_tail_v floor_tail_q".split(),
+    # The brace alone.
+    *"brace_g brace_w2 brace_drift brace_slow brace_omega brace_ground brace_tail_e brace_tail_q".split(),
+    # Step maps, and quadratic forms of the viscous work.
+    *_MAPS,
+    *_LOSSES,
+    "end",
+)
+ROW = positions(_NAMES, dict.fromkeys(_MAPS, 12) | dict.fromkeys(_LOSSES, 10))
+"""Rows of the packed array: the state's, in its order, then what the loops need."""
+
+N_ROWS = ROW.end
 
 
 @inlined
@@ -104,45 +90,44 @@ def put_lane(p, lane, plan, stride, forms, certify):
     storey = plan.storey
     sliding = storey.kinetic_slip_force if storey.slip_force < math.inf else 0.0
     massive = storey.brace_mass > 0.0
-    p[LIMIT * WIDTH + lane] = storey.slip_force
-    p[PUSH_FLOOR * WIDTH + lane] = sliding / storey.floor_mass
-    p[PUSH_BRACE * WIDTH + lane] = sliding / storey.brace_mass if massive else 0.0
-    p[LIFT * WIDTH + lane] = plan.lift
-    p[MASS * WIDTH + lane] = plan.mass
-    p[FLOOR_MASS * WIDTH + lane] = storey.floor_mass
-    p[BRACE_MASS * WIDTH + lane] = storey.brace_mass
-    p[LIGHT * WIDTH + lane] = 1.0 / plan.mass
+    p[ROW.limit * WIDTH + lane] = storey.slip_force
+    p[ROW.push_floor * WIDTH + lane] = sliding / storey.floor_mass
+    p[ROW.push_brace * WIDTH + lane] = sliding / storey.brace_mass if massive else 0.0
+    p[ROW.lift * WIDTH + lane] = plan.lift
+    p[ROW.mass * WIDTH + lane] = plan.mass
+    p[ROW.floor_mass * WIDTH + lane] = storey.floor_mass
+    p[ROW.brace_mass * WIDTH + lane] = storey.brace_mass
     # A slow brace's quasi-static motion says nothing; a damped one's losses are not tallied a step at a time.
     slow = massive and is_slow(plan)
-    p[ALONE * WIDTH + lane] = 1.0 if slow or (certify and storey.brace_damping > 0.0) else 0.0
-    put_branch(p, S_G, lane, plan.stick, plan.step)
-    put_branch(p, F_G, lane, plan.floor, plan.step)
-    tail_u, tail_v = at(p, S_TAIL_U, lane), at(p, S_TAIL_V, lane)
-    p[HOLD_U * WIDTH + lane] = plan.hold_u
-    p[HOLD_V * WIDTH + lane] = plan.hold_v
-    p[HOLD_O * WIDTH + lane] = plan.hold_offset
-    p[HOLD_TAIL * WIDTH + lane] = abs(plan.hold_u) * tail_u + abs(plan.hold_v) * tail_v
+    p[ROW.alone * WIDTH + lane] = 1.0 if slow or (certify and storey.brace_damping > 0.0) else 0.0
+    put_branch(p, ROW.stick_g, lane, plan.stick, plan.step)
+    put_branch(p, ROW.floor_g, lane, plan.floor, plan.step)
+    tail_u, tail_v = at(p, ROW.stick_tail_u, lane), at(p, ROW.stick_tail_v, lane)
+    p[ROW.hold_u * WIDTH + lane] = plan.hold_u
+    p[ROW.hold_v * WIDTH + lane] = plan.hold_v
+    p[ROW.hold_offset * WIDTH + lane] = plan.hold_offset
+    p[ROW.hold_tail * WIDTH + lane] = abs(plan.hold_u) * tail_u + abs(plan.hold_v) * tail_v
     brace = plan.brace
-    p[B_G * WIDTH + lane] = brace.g
-    p[B_W2 * WIDTH + lane] = brace.w2
-    p[B_DRIFT * WIDTH + lane] = brace.drift
-    p[B_SLOW * WIDTH + lane] = brace.slowness if massive else 0.0
-    p[B_OMEGA * WIDTH + lane] = math.sqrt(brace.w2) if massive else 0.0
-    p[B_GROUND * WIDTH + lane] = 1.0 if massive else 0.0
+    p[ROW.brace_g * WIDTH + lane] = brace.g
+    p[ROW.brace_w2 * WIDTH + lane] = brace.w2
+    p[ROW.brace_drift * WIDTH + lane] = brace.drift
+    p[ROW.brace_slow * WIDTH + lane] = brace.slowness if massive else 0.0
+    p[ROW.brace_omega * WIDTH + lane] = math.sqrt(brace.w2) if massive else 0.0
+    p[ROW.brace_ground * WIDTH + lane] = 1.0 if massive else 0.0
     phi = brace.rate * plan.step
-    p[B_TAIL_E * WIDTH + lane] = TAIL * phi * phi * phi * phi
-    p[B_TAIL_Q * WIDTH + lane] = TAIL * phi * phi * phi * phi * brace.rate
-    p[S_DAMP * WIDTH + lane] = storey.floor_damping + storey.brace_damping
-    p[F_DAMP * WIDTH + lane] = storey.floor_damping
-    p[HELD * WIDTH + lane] = 0.0
+    p[ROW.brace_tail_e * WIDTH + lane] = TAIL * phi * phi * phi * phi
+    p[ROW.brace_tail_q * WIDTH + lane] = TAIL * phi * phi * phi * phi * brace.rate
+    p[ROW.stick_damp * WIDTH + lane] = storey.floor_damping + storey.brace_damping
+    p[ROW.floor_damp * WIDTH + lane] = storey.floor_damping
+    p[ROW.held * WIDTH + lane] = 0.0
     for k in range(12):
-        p[(S_MAP + k) * WIDTH + lane] = plan.stick_map[k]
-        p[(F_MAP + k) * WIDTH + lane] = stride.floor[k]
-        p[(B_MAP + k) * WIDTH + lane] = stride.brace[k]
+        p[(ROW.stick_map + k) * WIDTH + lane] = plan.stick_map[k]
+        p[(ROW.floor_map + k) * WIDTH + lane] = stride.floor[k]
+        p[(ROW.brace_map + k) * WIDTH + lane] = stride.brace[k]
     for k in range(10):
         double = 1.0 if k in (0, 4, 7, 9) else 2.0  # off the diagonal of the quadratic form
-        p[(S_LOSS + k) * WIDTH + lane] = forms[STICK_FORM + k] * double
-        p[(F_LOSS + k) * WIDTH + lane] = forms[STRIDE_FORM + k] * double
+        p[(ROW.stick_loss + k) * WIDTH + lane] = forms[STICK_FORM + k] * double
+        p[(ROW.floor_loss + k) * WIDTH + lane] = forms[STRIDE_FORM + k] * double
 
 
 @inner
@@ -150,18 +135,18 @@ def start_lane(p, lane):
     """Set a lane to rest at t = 0; a damper without friction slides from the start."""
     for row in range(N_STATE):
         p[row * WIDTH + lane] = 0.0
-    p[ONSET * WIDTH + lane] = NO_ONSET
-    p[PHASE * WIDTH + lane] = 1.0 if at(p, LIMIT, lane) == 0.0 else 0.0
+    p[ROW.onset * WIDTH + lane] = NO_ONSET
+    p[ROW.phase * WIDTH + lane] = 1.0 if at(p, ROW.limit, lane) == 0.0 else 0.0
 
 
 @inner
 def rest_lane(p, lane):
     """Make a lane uneventful for good: sticking, no slip force to reach, no peak to pass."""
-    p[LIMIT * WIDTH + lane] = math.inf
+    p[ROW.limit * WIDTH + lane] = math.inf
     start_lane(p, lane)
-    for row in range(PEAK_ACCELERATION, PEAK_SHEAR + 1):
+    for row in range(ROW.peak_acceleration, ROW.peak_shear + 1):
         p[row * WIDTH + lane] = math.inf
-    p[PEAK_BRACE * WIDTH + lane] = math.inf
+    p[ROW.peak_brace * WIDTH + lane] = math.inf
 
 
 @inner
@@ -176,23 +161,26 @@ def take_state(p, lane, s):
     """Take a history's state from its lane; the brace of one that sticks moves as its floor does."""
     for row in range(N_STATE):
         s[row] = p[row * WIDTH + lane]
-    if s[PHASE] == STICK:
-        s[D] = s[U] - s[OFFSET]
-        s[E] = s[V]
+    if s[STATE.phase] == STICK:
+        s[STATE.d] = s[STATE.u] - s[STATE.offset]
+        s[STATE.e] = s[STATE.v]
 
 
 @inlined
 def has_no_new_peak(p, lane, s):
     """Whether a step passes none of the peaks in the state ``s``, unless the phase changes on it."""
+    shear = at(p, ROW.bound_s, lane)
+    if s[STATE.phase] == STICK:
+        shear = at(p, ROW.mass, lane) * at(p, ROW.bound_q, lane)
     return (
-        at(p, BOUND_Q, lane) <= s[PEAK_ACCELERATION]
-        and at(p, BOUND_U, lane) <= s[PEAK_DISPLACEMENT]
-        and at(p, BOUND_V, lane) <= s[PEAK_VELOCITY]
-        and at(p, BOUND_S, lane) <= s[PEAK_SHEAR]
+        at(p, ROW.bound_q, lane) <= s[STATE.peak_acceleration]
+        and at(p, ROW.bound_u, lane) <= s[STATE.peak_displacement]
+        and at(p, ROW.bound_v, lane) <= s[STATE.peak_velocity]
+        and shear <= s[STATE.peak_shear]
     )
 
 
 @inlined
 def has_no_new_brace_peak(p, lane, s):
     """Whether a step passes no peak of the brace force in the state ``s``, unless the phase changes on it."""
-    return at(p, BOUND_B, lane) <= s[PEAK_BRACE]
+    return at(p, ROW.bound_b, lane) <= s[STATE.peak_brace]

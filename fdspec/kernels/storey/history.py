@@ -14,34 +14,15 @@ from fdspec.compiler.positions import positions
 from fdspec.kernels.friction import friction_work, reaction
 from fdspec.kernels.storey.energy import stored_energy
 from fdspec.kernels.storey.rest import rest_displacement
+from fdspec.kernels.storey.state import motion_of, peaks_of
 from fdspec.kernels.storey.step import begin, come_to_rest, resume, take_step
 from fdspec.kernels.types import (
-    ANCHOR,
     ENERGY_NOT_CLOSED,
     ENERGY_TOLERANCE,
-    INPUT,
     NON_FINITE_STATE,
-    OFFSET,
     OK,
-    PEAK_ACCELERATION,
-    PEAK_BRACE,
-    PEAK_DISPLACEMENT,
-    PEAK_SHEAR,
-    PEAK_SLIP,
-    PEAK_VELOCITY,
-    PHASE,
-    RELEASE,
-    STATUS,
+    STATE,
     STICK,
-    STORED,
-    TRANSITIONS,
-    TRAVEL,
-    VISCOUS,
-    D,
-    E,
-    Motion,
-    U,
-    V,
 )
 
 RESULTS = (
@@ -74,46 +55,49 @@ def energy_in_play(storey, s, friction):
 
     The net input alone may be zero, as over whole periods of a frame without damping.
     """
-    moved = storey.floor_mass * s[PEAK_VELOCITY] * s[PEAK_VELOCITY]
-    bent = storey.floor_stiffness * s[PEAK_DISPLACEMENT] * s[PEAK_DISPLACEMENT]
-    return max(max(abs(s[INPUT]) + s[STORED], s[VISCOUS] + friction), 0.5 * max(moved, bent))
+    peaks = peaks_of(s)
+    moved = storey.floor_mass * peaks.velocity * peaks.velocity
+    bent = storey.floor_stiffness * peaks.displacement * peaks.displacement
+    worked = max(abs(s[STATE.input]) + s[STATE.stored], s[STATE.viscous] + friction)
+    return max(worked, 0.5 * max(moved, bent))
 
 
 @inner
 def finish(storey, s, certify, result):
     """Fill ``result`` (see RESULTS) from the state at the end."""
-    motion = Motion(s[U], s[V], s[D], s[E])
-    travel = s[TRAVEL]
-    if s[PHASE] != STICK:
-        travel += s[PHASE] * (motion.u - motion.d - s[ANCHOR])
-    friction = s[RELEASE]
+    motion = motion_of(s)
+    travel = s[STATE.travel]
+    if s[STATE.phase] != STICK:
+        travel += s[STATE.phase] * (motion.u - motion.d - s[STATE.anchor])
+    friction = s[STATE.release]
     if travel > 0.0:
         friction += friction_work(storey.kinetic_slip_force, travel)
     error = 0.0
     if certify:
-        missing = s[INPUT] + s[STORED] - stored_energy(storey, motion) - s[VISCOUS] - friction
+        given = s[STATE.input] + s[STATE.stored]
+        missing = given - stored_energy(storey, motion) - s[STATE.viscous] - friction
         scale = energy_in_play(storey, s, friction)
         error = abs(missing) / scale if scale > 0.0 else 0.0
-    result[RESULT.peak_acceleration] = s[PEAK_ACCELERATION]
-    result[RESULT.peak_displacement] = s[PEAK_DISPLACEMENT]
-    result[RESULT.peak_velocity] = s[PEAK_VELOCITY]
-    result[RESULT.peak_base_shear] = s[PEAK_SHEAR]
+    result[RESULT.peak_acceleration] = s[STATE.peak_acceleration]
+    result[RESULT.peak_displacement] = s[STATE.peak_displacement]
+    result[RESULT.peak_velocity] = s[STATE.peak_velocity]
+    result[RESULT.peak_base_shear] = s[STATE.peak_shear]
     result[RESULT.residual_displacement] = motion.u
     result[RESULT.slip_travel] = travel
-    result[RESULT.transitions] = s[TRANSITIONS]
+    result[RESULT.transitions] = s[STATE.transitions]
     result[RESULT.dissipated_energy] = friction
-    result[RESULT.input_energy] = s[INPUT]
+    result[RESULT.input_energy] = s[STATE.input]
     result[RESULT.energy_error] = error
-    result[RESULT.status] = s[STATUS]
-    slip = s[OFFSET] if s[PHASE] == STICK else motion.u - motion.d
-    result[RESULT.peak_slip] = max(s[PEAK_SLIP], abs(slip))
+    result[RESULT.status] = s[STATE.status]
+    slip = s[STATE.offset] if s[STATE.phase] == STICK else motion.u - motion.d
+    result[RESULT.peak_slip] = max(s[STATE.peak_slip], abs(slip))
     result[RESULT.residual_slip] = slip
-    result[RESULT.peak_brace_force] = s[PEAK_BRACE]
-    result[RESULT.peak_column_shear] = storey.floor_stiffness * s[PEAK_DISPLACEMENT]
+    result[RESULT.peak_brace_force] = s[STATE.peak_brace]
+    result[RESULT.peak_column_shear] = storey.floor_stiffness * s[STATE.peak_displacement]
     size = 0.0
     for k in range(RESULT.status):
         size += abs(result[k])
-    if s[STATUS] == OK:
+    if s[STATE.status] == OK:
         if not size < math.inf:
             result[RESULT.status] = NON_FINITE_STATE
         elif error > ENERGY_TOLERANCE:
@@ -123,7 +107,7 @@ def finish(storey, s, certify, result):
 @inner
 def settle_at_rest(storey, s, result):
     """Put the position of rest in the place of that at the end."""
-    slip = 0.0 if storey.slip_force == 0.0 else s[OFFSET]
+    slip = 0.0 if storey.slip_force == 0.0 else s[STATE.offset]
     result[RESULT.residual_displacement] = rest_displacement(storey, slip)
     result[RESULT.residual_slip] = slip
 
@@ -162,10 +146,10 @@ def history(
         resume(plan, s)
     else:
         begin(plan, start, s)
-    begun = int(s[TRANSITIONS])
+    begun = int(s[STATE.transitions])
     for k in range(min(begun, times.size)):
         times[k] = 0.0
-        phases[k] = int(s[PHASE])
+        phases[k] = int(s[STATE.phase])
     if begun == 2 and times.size > 0:
         phases[0] = 1 if reaction(plan.storey, start.u, start.v, start.d) > 0.0 else -1
     written = 0
@@ -201,7 +185,7 @@ def history(
             written,
             reach,
         )
-        if s[STATUS] != OK:
+        if s[STATE.status] != OK:
             break
     taken = (
         come_to_rest(plan, forms, s, parts, True, floor, brace, search, times, phases, traces)
@@ -209,6 +193,6 @@ def history(
         else 0
     )
     finish(plan.storey, s, True, result)
-    if at_rest and s[STATUS] == OK:
+    if at_rest and s[STATE.status] == OK:
         settle_at_rest(plan.storey, s, result)
     return taken

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 from fdspec.compiler.options import inner
-from fdspec.kernels.types import OFFSET, PHASE, STICK, TOUCHING, U, V
+from fdspec.kernels.types import STATE, STICK
 
 REST_STEPS = 2_000_000
 """Record steps after which a storey that still slips is given up."""
@@ -31,14 +31,14 @@ def is_at_rest(plan, s):
     storey = plan.storey
     if storey.slip_force == 0.0 or storey.slip_force == math.inf:
         return True
-    if s[PHASE] != STICK or s[TOUCHING] != 0.0:
+    if s[STATE.phase] != STICK or s[STATE.touching] != 0.0:
         return False
     stiffness = storey.floor_stiffness + storey.brace_stiffness
-    rest = rest_displacement(storey, s[OFFSET])
+    rest = rest_displacement(storey, s[STATE.offset])
     omega = math.sqrt(stiffness / plan.mass)
-    away = s[U] - rest
-    pace = s[V] / omega
+    away = s[STATE.u] - rest
+    pace = s[STATE.v] / omega
     amplitude = math.sqrt(away * away + pace * pace)
     tilt = plan.hold_v * omega
     swing = amplitude * math.sqrt(plan.hold_u * plan.hold_u + tilt * tilt)
-    return abs(plan.hold_u * rest - plan.hold_offset * s[OFFSET]) + swing < storey.slip_force
+    return abs(plan.hold_u * rest - plan.hold_offset * s[STATE.offset]) + swing < storey.slip_force

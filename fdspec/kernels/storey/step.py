@@ -36,43 +36,22 @@ from fdspec.kernels.storey.slip import (
     search_slip,
     slip_peaks,
 )
+from fdspec.kernels.storey.state import motion_of, peaks_of, put_motion, put_peaks
 from fdspec.kernels.storey.stick import (
     search_stick,
     stick_peaks,
 )
 from fdspec.kernels.types import (
-    ANCHOR,
-    EVENTS,
-    INPUT,
     NO_ONSET,
     NON_FINITE_STATE,
-    OFFSET,
     OK,
-    ONSET,
-    PEAK_ACCELERATION,
-    PEAK_BRACE,
-    PEAK_DISPLACEMENT,
-    PEAK_SHEAR,
-    PEAK_SLIP,
-    PEAK_VELOCITY,
-    PHASE,
-    RELEASE,
-    STATUS,
+    STATE,
     STICK,
-    STORED,
-    TOUCHING,
     TRANSITION_CAP,
     TRANSITION_CAP_REACHED,
-    TRANSITIONS,
-    TRAVEL,
-    VISCOUS,
-    D,
-    E,
     Energy,
     Motion,
     Peaks,
-    U,
-    V,
 )
 
 UNRESOLVED = 2.0**-50
@@ -91,6 +70,14 @@ def with_instant(plan, phase, offset, motion, peaks):
         max(peaks.velocity, abs(motion.v)),
         max(peaks.shear, abs(base_shear(plan.storey, motion))),
     )
+
+
+@inner
+def begin_peaks(plan, s, motion):
+    """Set the peaks in the state ``s``, whose phase and offset are known, to those of this instant."""
+    put_peaks(s, with_instant(plan, int(s[STATE.phase]), s[STATE.offset], motion, Peaks(0.0, 0.0, 0.0, 0.0)))
+    s[STATE.peak_slip] = abs(motion.u - motion.d)
+    s[STATE.peak_brace] = abs(brace_force(plan.storey, motion))
 
 
 @inner
@@ -124,17 +111,17 @@ def begin(plan, start, s):
     onset = NO_ONSET
     phase = STICK
     held = reaction(storey, motion.u, motion.v, motion.d)
-    s[STORED] = stored_energy(storey, motion)
-    s[OFFSET] = motion.u - motion.d
-    s[ANCHOR] = motion.u - motion.d
+    s[STATE.stored] = stored_energy(storey, motion)
+    s[STATE.offset] = motion.u - motion.d
+    s[STATE.anchor] = motion.u - motion.d
     if storey.brace_mass == 0.0:
         motion = Motion(motion.u, motion.v, motion.d, motion.v)  # its velocity is none of the state
     if storey.slip_force == 0.0:
         if storey.brace_mass == 0.0:
             motion, _ = begin_slip(storey, 1 if held > 0.0 else -1, motion, held)
-            s[RELEASE] = spring_release(storey, start.d, motion.d)
-            s[TRAVEL] = abs(start.d - motion.d)
-            s[ANCHOR] = motion.u - motion.d
+            s[STATE.release] = spring_release(storey, start.d, motion.d)
+            s[STATE.travel] = abs(start.d - motion.d)
+            s[STATE.anchor] = motion.u - motion.d
         slide = motion.v - motion.e
         phase = 1 if slide > 0.0 or (slide == 0.0 and held >= 0.0) else -1
     elif motion.v != motion.e and storey.brace_mass > 0.0:
@@ -142,47 +129,34 @@ def begin(plan, start, s):
     elif abs(held) > storey.slip_force:
         phase = 1 if held > 0.0 else -1
         motion, onset = begin_slip(storey, phase, motion, held)
-        s[RELEASE] = spring_release(storey, start.d, motion.d)
-        s[TRANSITIONS] = 1.0
+        s[STATE.release] = spring_release(storey, start.d, motion.d)
+        s[STATE.transitions] = 1.0
         if storey.brace_mass == 0.0 and storey.brace_damping == 0.0 and phase * motion.v < 0.0:
             # The brace has sprung back to the floor's side, and the floor takes it along.
-            s[TRAVEL] = abs(start.d - motion.d)
-            s[OFFSET] = motion.u - motion.d
-            s[ANCHOR] = motion.u - motion.d
-            s[TRANSITIONS] = 2.0
-            s[TOUCHING] = phase
+            s[STATE.travel] = abs(start.d - motion.d)
+            s[STATE.offset] = motion.u - motion.d
+            s[STATE.anchor] = motion.u - motion.d
+            s[STATE.transitions] = 2.0
+            s[STATE.touching] = phase
             motion = Motion(motion.u, motion.v, motion.d, motion.v)
             phase = STICK
-    s[U] = motion.u
-    s[V] = motion.v
-    s[D] = motion.d
-    s[E] = motion.e
-    s[PHASE] = phase
-    s[ONSET] = onset
-    peaks = with_instant(plan, phase, s[OFFSET], motion, Peaks(0.0, 0.0, 0.0, 0.0))
-    s[PEAK_ACCELERATION] = peaks.acceleration
-    s[PEAK_DISPLACEMENT] = peaks.displacement
-    s[PEAK_VELOCITY] = peaks.velocity
-    s[PEAK_SHEAR] = peaks.shear
-    s[PEAK_SLIP] = abs(motion.u - motion.d)
-    s[PEAK_BRACE] = abs(brace_force(storey, motion))
+    put_motion(s, motion)
+    s[STATE.phase] = phase
+    s[STATE.onset] = onset
+    begin_peaks(plan, s, motion)
 
 
 @inner
 def resume(plan, s):
     """Go on from the state ``s`` in which another history has ended, with peaks and energies anew."""
-    motion = Motion(s[U], s[V], s[D], s[E])
-    for k in (INPUT, VISCOUS, RELEASE, TRAVEL, TRANSITIONS, EVENTS, STATUS):
+    motion = motion_of(s)
+    for k in (STATE.input, STATE.viscous, STATE.release, STATE.travel):
         s[k] = 0.0
-    s[ANCHOR] = motion.u - motion.d
-    s[STORED] = stored_energy(plan.storey, motion)
-    peaks = with_instant(plan, int(s[PHASE]), s[OFFSET], motion, Peaks(0.0, 0.0, 0.0, 0.0))
-    s[PEAK_ACCELERATION] = peaks.acceleration
-    s[PEAK_DISPLACEMENT] = peaks.displacement
-    s[PEAK_VELOCITY] = peaks.velocity
-    s[PEAK_SHEAR] = peaks.shear
-    s[PEAK_SLIP] = abs(motion.u - motion.d)
-    s[PEAK_BRACE] = abs(brace_force(plan.storey, motion))
+    for k in (STATE.transitions, STATE.events, STATE.status):
+        s[k] = 0.0
+    s[STATE.anchor] = motion.u - motion.d
+    s[STATE.stored] = stored_energy(plan.storey, motion)
+    begin_peaks(plan, s, motion)
 
 
 @inner
@@ -223,13 +197,13 @@ def take_step(
     tracing = traces.shape[0] > 0
     spring_only = storey.brace_mass == 0.0 and storey.brace_damping == 0.0
 
-    motion = Motion(s[U], s[V], s[D], s[E])
-    offset = s[OFFSET]
-    phase = int(s[PHASE])
-    onset = s[ONSET]
-    touching = int(s[TOUCHING])
-    peaks = Peaks(s[PEAK_ACCELERATION], s[PEAK_DISPLACEMENT], s[PEAK_VELOCITY], s[PEAK_SHEAR])
-    strongest = s[PEAK_BRACE]
+    motion = motion_of(s)
+    offset = s[STATE.offset]
+    phase = int(s[STATE.phase])
+    onset = s[STATE.onset]
+    touching = int(s[STATE.touching])
+    peaks = peaks_of(s)
+    strongest = s[STATE.peak_brace]
     tau = 0.0
     part = 0  # index of the segment within the step, on the grid of the phase
     whole = True  # whether the segment begins on that grid
@@ -256,11 +230,11 @@ def take_step(
         if found != UNCLEAR:
             happens = found == CROSSES
             h = length
-            s[INPUT] += input_work(plan, phase, motion, end, swept, swung, acceleration, rate, h)
+            s[STATE.input] += input_work(plan, phase, motion, end, swept, swung, acceleration, rate, h)
             if certify and whole and not happens:
-                s[VISCOUS] += whole_loss(plan, forms, phase, motion, force)
+                s[STATE.viscous] += whole_loss(plan, forms, phase, motion, force)
             elif certify:
-                s[VISCOUS] += part_loss(plan, phase, floor, motion, force, h)
+                s[STATE.viscous] += part_loss(plan, phase, floor, motion, force, h)
         else:
             if phase == STICK:
                 b = plan.stick
@@ -276,7 +250,7 @@ def take_step(
             happens = x <= 1.0
             share = min(x, 1.0)
             if tracing:
-                so_far = Energy(s[INPUT], s[VISCOUS], s[RELEASE])
+                so_far = Energy(s[STATE.input], s[STATE.viscous], s[STATE.release])
                 until = (tau + share * h if happens else target) + reach
                 while written < traces.shape[0] and written * dt_out - at <= until:
                     y = min(max((written * dt_out - at - tau) / h, 0.0), share)
@@ -287,8 +261,8 @@ def take_step(
                         order,
                         phase,
                         offset,
-                        s[ANCHOR],
-                        s[TRAVEL],
+                        s[STATE.anchor],
+                        s[STATE.travel],
                         so_far,
                         acceleration,
                         rate,
@@ -298,8 +272,8 @@ def take_step(
                     )
                     written += 1
             done, lost = series_work(plan, phase, floor, brace, order, acceleration, rate, h, share, certify)
-            s[INPUT] += done
-            s[VISCOUS] += lost
+            s[STATE.input] += done
+            s[STATE.viscous] += lost
             u, rise = value_slope(floor, 0, order, share)
             v = rise / h
             d = u - offset
@@ -340,21 +314,21 @@ def take_step(
 
         at_one_instant = at_one_instant + 1 if tau + h == tau else 0
         tau += h
-        s[EVENTS] += 1.0
-        if s[EVENTS] > TRANSITION_CAP or at_one_instant > CHANGES_AT_ONE_INSTANT:
-            s[STATUS] = TRANSITION_CAP_REACHED
+        s[STATE.events] += 1.0
+        if s[STATE.events] > TRANSITION_CAP or at_one_instant > CHANGES_AT_ONE_INSTANT:
+            s[STATE.status] = TRANSITION_CAP_REACHED
             break
         changes = True
         if phase == STICK:
-            s[ANCHOR] = offset
+            s[STATE.anchor] = offset
             spring = motion.d
             motion, onset = begin_slip(storey, sign, motion, limit)
-            s[RELEASE] += spring_release(storey, spring, motion.d)
+            s[STATE.release] += spring_release(storey, spring, motion.d)
             phase = sign
         else:
             v = 0.0 if spring_only else motion.v
             motion = Motion(motion.u, v, motion.d, v)
-            slipped = sign * (motion.u - motion.d - s[ANCHOR])
+            slipped = sign * (motion.u - motion.d - s[STATE.anchor])
             held = reaction(storey, motion.u, motion.v, motion.d)
             if storey.brace_mass == 0.0:
                 held = sliding_force(sign, storey.kinetic_slip_force)
@@ -365,8 +339,8 @@ def take_step(
                 onset = onset_acceleration(storey, held)
                 changes = False
             else:
-                s[TRAVEL] += slipped
-                s[ANCHOR] = motion.u - motion.d
+                s[STATE.travel] += slipped
+                s[STATE.anchor] = motion.u - motion.d
                 phase = after
                 changes = not free
                 if phase == STICK:
@@ -377,13 +351,13 @@ def take_step(
                 elif storey.brace_mass > 0.0:
                     onset = onset_acceleration(storey, held)
         if changes:
-            k = int(s[TRANSITIONS])
+            k = int(s[STATE.transitions])
             if k < times.size:
                 times[k] = at + tau
                 phases[k] = phase
-            s[TRANSITIONS] = k + 1.0
+            s[STATE.transitions] = k + 1.0
         peaks = with_instant(plan, phase, offset, motion, peaks)
-        s[PEAK_SLIP] = max(s[PEAK_SLIP], abs(motion.u - motion.d))
+        s[STATE.peak_slip] = max(s[STATE.peak_slip], abs(motion.u - motion.d))
         segments = 1 if phase == STICK else int(plan.slip_steps)
         part = 0 if phase == STICK else min(int(tau / plan.slip_step), segments - 1)
         if part + 1 < segments and (part + 1) * plan.slip_step <= tau:
@@ -401,20 +375,14 @@ def take_step(
     if no_new_brace_peak:
         strongest = max(strongest, abs(brace_force(storey, motion)))
     if not abs(motion.u) + abs(motion.v) + abs(motion.d) + abs(motion.e) < math.inf:
-        s[STATUS] = NON_FINITE_STATE
-    s[U] = motion.u
-    s[V] = motion.v
-    s[D] = motion.d
-    s[E] = motion.e
-    s[OFFSET] = offset
-    s[PHASE] = phase
-    s[ONSET] = onset
-    s[TOUCHING] = touching
-    s[PEAK_ACCELERATION] = peaks.acceleration
-    s[PEAK_DISPLACEMENT] = peaks.displacement
-    s[PEAK_VELOCITY] = peaks.velocity
-    s[PEAK_SHEAR] = peaks.shear
-    s[PEAK_BRACE] = strongest
+        s[STATE.status] = NON_FINITE_STATE
+    put_motion(s, motion)
+    s[STATE.offset] = offset
+    s[STATE.phase] = phase
+    s[STATE.onset] = onset
+    s[STATE.touching] = touching
+    put_peaks(s, peaks)
+    s[STATE.peak_brace] = strongest
     return written
 
 
@@ -425,9 +393,9 @@ def come_to_rest(plan, forms, s, parts, certify, floor, brace, search, times, ph
     parts: steps of the plan in each of them.  times, phases, traces: as for `take_step`, and without room.
     """
     taken = 0
-    while s[STATUS] == OK and not is_at_rest(plan, s):
+    while s[STATE.status] == OK and not is_at_rest(plan, s):
         if taken == REST_STEPS:
-            s[STATUS] = TRANSITION_CAP_REACHED
+            s[STATE.status] = TRANSITION_CAP_REACHED
             break
         for _ in range(parts):
             take_step(
@@ -450,7 +418,7 @@ def come_to_rest(plan, forms, s, parts, certify, floor, brace, search, times, ph
                 0,
                 0.0,
             )
-            if s[STATUS] != OK:
+            if s[STATE.status] != OK:
                 break
         taken += 1
     return taken

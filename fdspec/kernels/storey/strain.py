@@ -25,21 +25,7 @@ from fdspec.kernels.storey.constants import plan, steps_per_sample
 from fdspec.kernels.storey.energy import N_FORMS, loss_at
 from fdspec.kernels.storey.slip import brace_fourths
 from fdspec.kernels.storey.step import begin, begin_slip, take_step
-from fdspec.kernels.types import (
-    N_STATE,
-    OFFSET,
-    OK,
-    PHASE,
-    STATUS,
-    STICK,
-    TRANSITIONS,
-    D,
-    E,
-    Motion,
-    Storey,
-    U,
-    V,
-)
+from fdspec.kernels.types import N_STATE, OK, STATE, STICK, Motion, Storey
 
 STRAIN_RESULTS: Final = ("strain_energy_area", "peak_strain_energy", "status")
 """What a history leaves behind, in the order of its result row: J s, J, a status code."""
@@ -214,7 +200,7 @@ def strain_of_history(
             a0 = ground[i] + rate * (j * scheme.step)
             for k in range(N_STATE):
                 start[k] = s[k]
-            s[TRANSITIONS] = 0.0
+            s[STATE.transitions] = 0.0
             take_step(
                 scheme,
                 no_forms,
@@ -235,13 +221,13 @@ def strain_of_history(
                 0,
                 0.0,
             )
-            changes = int(s[TRANSITIONS])
+            changes = int(s[STATE.transitions])
             busiest = max(busiest, changes)
             if changes > times.size:
                 return busiest
-            motion = Motion(start[U], start[V], start[D], start[E])
-            phase = int(start[PHASE])
-            offset = start[OFFSET]
+            motion = Motion(start[STATE.u], start[STATE.v], start[STATE.d], start[STATE.e])
+            phase = int(start[STATE.phase])
+            offset = start[STATE.offset]
             tau = 0.0
             for k in range(changes):
                 motion, total, most = strain_of_phase(
@@ -285,13 +271,13 @@ def strain_of_history(
                 total,
                 most,
             )
-            if s[STATUS] != OK:
+            if s[STATE.status] != OK:
                 break
-        if s[STATUS] != OK:
+        if s[STATE.status] != OK:
             break
     result[STRAIN.strain_energy_area] = total
     result[STRAIN.peak_strain_energy] = most
-    result[STRAIN.status] = s[STATUS]
+    result[STRAIN.status] = s[STATE.status]
     return busiest
 
 
