@@ -24,6 +24,7 @@ from fdspec.kernels.storey.bounds import floor_fourths, forcing, magnitude_bound
 from fdspec.kernels.storey.constants import plan, steps_per_sample
 from fdspec.kernels.storey.energy import N_FORMS, loss_at
 from fdspec.kernels.storey.slip import brace_fourths
+from fdspec.kernels.storey.state import motion_of
 from fdspec.kernels.storey.step import begin, begin_slip, take_step
 from fdspec.kernels.types import N_STATE, OK, STATE, STICK, Motion, Storey
 
@@ -225,11 +226,12 @@ def strain_of_history(
             busiest = max(busiest, changes)
             if changes > times.size:
                 return busiest
-            motion = Motion(start[STATE.u], start[STATE.v], start[STATE.d], start[STATE.e])
+            motion = motion_of(start)
             phase = int(start[STATE.phase])
             offset = start[STATE.offset]
             tau = 0.0
-            for k in range(changes):
+            for k in range(changes + 1):
+                until = times[k] if k < changes else scheme.step
                 motion, total, most = strain_of_phase(
                     scheme,
                     squares,
@@ -239,14 +241,16 @@ def strain_of_history(
                     a0,
                     rate,
                     tau,
-                    times[k],
+                    until,
                     floor,
                     brace,
                     out,
                     total,
                     most,
                 )
-                tau = times[k]
+                tau = until
+                if k == changes:
+                    break
                 if phase == STICK:
                     motion, _ = begin_slip(storey, phases[k], motion, storey.slip_force)
                     most = max(most, strain(storey, motion.u, motion.d))
@@ -255,22 +259,6 @@ def strain_of_history(
                     motion = Motion(motion.u, v, motion.d, v)
                     offset = motion.u - motion.d
                 phase = int(phases[k])
-            _, total, most = strain_of_phase(
-                scheme,
-                squares,
-                phase,
-                offset,
-                motion,
-                a0,
-                rate,
-                tau,
-                scheme.step,
-                floor,
-                brace,
-                out,
-                total,
-                most,
-            )
             if s[STATE.status] != OK:
                 break
         if s[STATE.status] != OK:
