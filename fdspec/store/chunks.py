@@ -200,18 +200,53 @@ def write(
     """Write one block's values, variable by variable, the status last."""
     import zarr
 
-    with written(path):
-        still_there(path)  # Zarr would make the folders of a store that is gone anew
+    mine = [variable for variable in variables if blocks.owns(number, variable)]
+    paths = {variable.name: chunk_path(path, blocks, number, variable) for variable in mine}
+    with written(path), _of_a_store_that_stays(path, list(paths.values())):
         group = zarr.open_group(path, mode="r+", zarr_format=3)
-        mine = [variable for variable in variables if blocks.owns(number, variable)]
         for variable in sorted(mine, key=lambda variable: variable.name == STATUS):
             if variable.name == STATUS:
                 # The status says that the others are there: also after the machine has stopped.
-                for other in mine:
-                    if other.name != STATUS:
-                        _sync_chunk(path, chunk_path(path, blocks, number, other))
+                for name, chunk in paths.items():
+                    if name != STATUS:
+                        _sync(chunk)
             array: Any = group[variable.name]
             array[blocks.region(number, variable)] = values[variable.name]
+
+
+@contextmanager
+def _of_a_store_that_stays(path: str | os.PathLike[str], chunks: Sequence[Path]) -> Iterator[None]:
+    """Write chunks; raise DiskError where their store is removed before or meanwhile, whatever failed then.
+
+    Zarr makes the folders of a store that is gone anew. What was written into them is removed: a folder
+    that is no store would be in the way of the next one.
+    """
+    still_there(path)
+    try:
+        yield
+    except (KeyError, FileNotFoundError) as error:
+        _withdraw_unless_there(path, chunks)
+        raise DiskError(
+            f"cannot write {os.fspath(path)}: parts of it were removed meanwhile ({error}); "
+            "start the sweep again"
+        ) from error
+    _withdraw_unless_there(path, chunks)
+
+
+def _withdraw_unless_there(path: str | os.PathLike[str], chunks: Sequence[Path]) -> None:
+    try:
+        still_there(path)
+    except DiskError:
+        store = Path(path)
+        for chunk in chunks:
+            with suppress(OSError):
+                chunk.unlink(missing_ok=True)
+            for folder in (chunk.parent, *chunk.parent.parents):
+                if not folder.is_relative_to(store):
+                    break
+                with suppress(OSError):
+                    folder.rmdir()  # one that is not empty stays
+        raise
 
 
 def still_there(path: str | os.PathLike[str]) -> None:
@@ -383,14 +418,6 @@ def _sync(file: Path) -> None:
         os.fsync(descriptor)
     finally:
         os.close(descriptor)
-
-
-def _sync_chunk(path: str | os.PathLike[str], chunk: Path) -> None:
-    try:
-        _sync(chunk)
-    except FileNotFoundError:
-        still_there(path)
-        raise
 
 
 def _checksum(file: Path) -> str | None:
