@@ -269,6 +269,8 @@ BUILDING_DIMS: Final = ("record", "building", "stiffness_scale", "slip_scale")
 
 _EACH_STOREY: Final = (*BUILDING_DIMS, "storey")
 
+STANDS_ON: Final = "floor that the storey stands on, 0 the ground; there with frames beside each other"
+
 BUILDING_CUBE: Final[Registry] = registry_of(
     motion_variables(("record",)),
     (
@@ -289,6 +291,7 @@ BUILDING_CUBE: Final[Registry] = registry_of(
             "N",
             "friction force of the damper while it slips",
         ),
+        Variable("stands_on", ("building", "storey"), "1", STANDS_ON, "int64"),
         Variable(
             "brace_stiffness", ("building", "stiffness_scale", "storey"), "N/m", "stiffness of the brace"
         ),
@@ -451,6 +454,7 @@ HISTORY: Final[Registry] = registry_of(
         Variable("gravity_energy", _OVER_TIME, "J", "work done by gravity on the leaning frame"),
         Variable("yielding_energy", _OVER_TIME, "J", "energy dissipated by yielding of all columns"),
         Variable("links_energy", _OVER_TIME, "J", "energy dissipated in all links"),
+        Variable("stands_on", _STOREY, "1", STANDS_ON, "int64"),
         Variable("link", _LINK, "", "name of the link", TEXT),
         Variable("link_slip", _EACH_LINK, "m", "slip offset of the link, of a one-sided brace its slack"),
         Variable("link_force", _EACH_LINK, "N", "force in the brace of the link"),

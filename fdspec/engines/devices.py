@@ -97,11 +97,11 @@ def run(
         floors, sliders = parts[0].reshape(floors.shape).copy(), parts[1].reshape(sliders.shape).copy()
         mode = np.ascontiguousarray(parts[2].reshape(mode.shape), dtype=np.int64)
     tally = np.empty((row.TALLY_ROWS, links))
-    peaks = np.empty((PEAK_ROWS, size))
+    peaks = np.empty((PEAK_ROWS, frame.carried.shape[0]))
     totals = np.empty(len(TOTALS))
     room = _room(0, 0, size, links) if traces is None else traces
     integrate(
-        *frame[:8],
+        *frame[:10],
         motion.acceleration,
         motion.dt,
         span.free_steps,
@@ -186,7 +186,8 @@ def _friction(frame: DeviceFrame, outcome: Outcome) -> float:
 def storey_results(building: Building, frame: DeviceFrame, outcome: Outcome) -> dict[str, FloatArray]:
     """Return what each storey has of its own at the end of a history, by name, (N,)."""
     dampers, columns = frame.dampers, frame.columns
-    tally, peaks = outcome.tally, outcome.peaks
+    size = dampers.size
+    tally, peaks = outcome.tally, outcome.peaks[:, :size]
     displacement = outcome.floors[0, 1:].copy()
     offset = _of_storeys(outcome.sliders[0], dampers)
     can_yield = columns >= 0
@@ -199,6 +200,10 @@ def storey_results(building: Building, frame: DeviceFrame, outcome: Outcome) -> 
         "peak_velocity": peaks[PEAK_VELOCITY],
         "peak_drift": peaks[PEAK_DRIFT],
         "peak_storey_shear": peaks[PEAK_SHEAR],
+        # On the ground: of the first storey, of all frames where several stand there.
+        "peak_base_shear": np.full(
+            size, outcome.peaks[PEAK_SHEAR, size if outcome.peaks.shape[1] > size else 0]
+        ),
         "peak_brace_displacement": np.where(
             dampers >= 0, _of_storeys(tally[row.PEAK_TOP], dampers), peaks[PEAK_DISPLACEMENT]
         ),
@@ -233,7 +238,7 @@ def _trajectory(
     ours = storey_of[traces.log[0]] >= 0
     tally, totals = outcome.tally, outcome.totals
     result = storey_results(building, frame, outcome)
-    drift = np.diff(floor["displacement"], axis=1, prepend=0.0)
+    drift = building.drifts(floor["displacement"])
     elastic = np.where(columns >= 0, building.hardening_ratio, 1.0) * frame_stiffness(building)
     storey = int(totals["collapse_storey"])
     devices = DeviceTrajectory(
@@ -282,7 +287,7 @@ def _trajectory(
         peak_velocity=result["peak_velocity"],
         peak_drift=result["peak_drift"],
         peak_storey_shear=result["peak_storey_shear"],
-        peak_base_shear=float(result["peak_storey_shear"][0]),
+        peak_base_shear=float(result["peak_base_shear"][0]),
         residual_displacement=result["residual_displacement"],
         peak_slip=result["peak_slip"],
         residual_slip=result["residual_slip"],

@@ -130,6 +130,7 @@ class _File(BaseModel):
     slot_stiffness: list[NotNegative] | NotNegative | None = None
     recentring_stiffness: list[NotNegative] | NotNegative | None = None
     collapse_drift: list[PositiveOrInf] | PositiveOrInf | None = None
+    stands_on: list[Annotated[int, Field(ge=0)]] | None = None
     links: list[_Link] = []
     tension_braces: list[_TensionBrace] = []
 
@@ -143,6 +144,8 @@ class _File(BaseModel):
             raise ValueError(
                 "give either storey_stiffness and brace_stiffness, or bare_period and braced_period"
             )
+        if self.stands_on is not None and self.bare_period is not None:
+            raise ValueError("stands_on needs storey_stiffness: two periods fix one frame alone")
         if sum(getattr(self, name) is not None for name in DAMPING) > 1:
             raise ValueError(f"give one of {', '.join(DAMPING)}")
         if self.kinetic_slip_force is not None:
@@ -164,9 +167,9 @@ def read_building(path: str | Path, *, design: bool = False) -> Building:
     unless given; one of `damping_ratio` in every mode of the bare frame, or one a mode, 0.05 unless given,
     `rayleigh_damping`, a table of ratio, period_1 and period_2, and `damping_matrix`, N s/m. What `Building`
     knows of devices goes by the same names (`storey_height`, `yield_shear`, `hardening_ratio`,
-    `gravity_load`, `slot_length`, `slot_stiffness`, `recentring_stiffness`, `collapse_drift`), and each link
-    is a table ``[[links]]`` with the parameters of `Link`, or ``[[tension_braces]]`` with those of
-    `TensionBrace`.
+    `gravity_load`, `slot_length`, `slot_stiffness`, `recentring_stiffness`, `collapse_drift`, and `stands_on`
+    for frames beside each other), and each link is a table ``[[links]]`` with the parameters of `Link`, or
+    ``[[tension_braces]]`` with those of `TensionBrace`.
 
     Parameters
     ----------
@@ -264,6 +267,7 @@ def _building(file: _File) -> Building:
         file.storey_stiffness,  # type: ignore[arg-type]
         np.where(there, _each("brace_mass", file.brace_mass, size), 0.0),
         braces,
+        stands_on=file.stands_on,
         **options,
     )
 

@@ -72,7 +72,10 @@ def rows_of(grid: BuildingGrid) -> tuple[str, ...]:
     """Return the names of what each storey has of its own."""
     from fdspec.kernels.frame.results import STOREY_RESULTS
 
-    return (*STOREY_RESULTS, *(demands_of(grid) if with_devices(grid) else ()))
+    of_devices = demands_of(grid) if with_devices(grid) else ()
+    # Where several frames stand on the ground, the shear there is none of a storey's.
+    on_ground = () if all(building.is_one_frame for building in grid.buildings) else ("peak_base_shear",)
+    return (*STOREY_RESULTS, *of_devices, *on_ground)
 
 
 def parameters_of(grid: BuildingGrid, wanted: Sequence[str], certify: bool) -> dict[str, object]:
@@ -99,10 +102,18 @@ def axes_of(grid: BuildingGrid) -> dict[str, object]:
         "storey": np.arange(1, grid.n_storeys + 1),
         "slip_force": grid.slip_force,
         "kinetic_slip_force": grid.kinetic_slip_force,
+        **_standing(grid),
         "brace_stiffness": grid.brace_stiffness,
         "bare_period": [float(building.bare_periods[0]) for building in grid.buildings],
         "braced_period": grid.braced_period,
     }
+
+
+def _standing(grid: BuildingGrid) -> dict[str, object]:
+    """Return the floors that storeys stand on, where any building has frames beside each other."""
+    if all(building.is_one_frame for building in grid.buildings):
+        return {}
+    return {"stands_on": [building.stands_on for building in grid.buildings]}
 
 
 def bytes_of(motions: Sequence[GroundMotion], grid: BuildingGrid, outputs: Iterable[str]) -> dict[str, int]:
@@ -145,10 +156,14 @@ def variables_of(
     levels = (n_r, n_i, histories // n_i)
     results = dict(zip(rows, by_storey.reshape(len(rows), *levels, grid.n_storeys), strict=True))
     results |= dict(zip(TOTALS, totals.reshape(len(TOTALS), *levels), strict=True))
-    results["peak_base_shear"] = results["peak_storey_shear"][..., 0]
-    results["residual_drift"] = np.diff(results["residual_displacement"], prepend=0.0)
+    results["peak_base_shear"] = results.get("peak_base_shear", results["peak_storey_shear"])[..., 0]
+    n_b, n_k, n_s = grid.shape
+    residual = results["residual_displacement"][:, :, :cells]
+    of_buildings = residual.reshape(n_r, n_i, n_b, n_k * n_s, grid.n_storeys)
+    results["residual_drift"] = np.stack(
+        [building.drifts(of_buildings[:, :, b]) for b, building in enumerate(grid.buildings)], axis=2
+    ).reshape(residual.shape)
     if "peak_drift_ratio" in wanted and "peak_drift_ratio" not in results:
-        n_b, n_k, n_s = grid.shape
         height = np.stack([building.storey_height for building in grid.buildings])
         drift = results["peak_drift"][:, :, :cells].reshape(n_r, n_i, n_b, n_k * n_s, grid.n_storeys)
         results["peak_drift_ratio"] = (drift / height[:, np.newaxis]).reshape(n_r, n_i, cells, -1)
@@ -157,7 +172,6 @@ def variables_of(
         "elastic_acceleration": acceleration[:, :, braced:bare],
         "braced_acceleration": acceleration[:, :, cells:braced],
     }
-    n_b, n_k, n_s = grid.shape
     lengths = {"record": n_r, "building": n_b, "stiffness_scale": n_k, "slip_scale": n_s}
     lengths |= {"storey": grid.n_storeys, "intensity": n_i}
     registry = registry_for(grid)

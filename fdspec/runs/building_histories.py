@@ -90,7 +90,7 @@ def _run_one(
     is integrated by both engines: its peaks are those of the engine of frames, to the bit.
     """
     from fdspec.kernels.frame.results import DEMANDS as FIRST_DEMAND
-    from fdspec.kernels.frame.results import STOREY_RESULTS, TOTALS
+    from fdspec.kernels.frame.results import RESULT, STOREY_RESULTS, TOTALS
 
     cell = history < ends(grid)[0]
     free_steps = after.free_steps(motion)
@@ -112,6 +112,8 @@ def _run_one(
     if not building.has_devices:
         by_storey, totals = by_frames(frame_of(grid, history))
         table[:FIRST_DEMAND] = by_storey[:FIRST_DEMAND]
+        if "peak_base_shear" in rows_of(grid):
+            table[rows_of(grid).index("peak_base_shear")] = by_storey[RESULT.peak_storey_shear][0]
     return table, totals
 
 
@@ -170,7 +172,23 @@ def frame_of(grid: BuildingGrid, history: int) -> Frame:
     else:
         never = np.where(properties[row.BRACE_STIFFNESS] > 0.0, np.inf, 0.0)
         properties[[row.SLIP_FORCE, row.KINETIC_SLIP_FORCE]] = never
-    return given._replace(properties=properties)
+    given = given._replace(properties=properties)
+    return given if grid.buildings[b].is_one_frame else _with_braces_in(grid.buildings[b], given)
+
+
+def _with_braces_in(building: Building, given: Frame) -> Frame:
+    """Return frames beside each other, whose dampers never slip, as one whose braces are part of it."""
+    from fdspec.kernels.frame import model as row
+
+    properties = given.properties.copy()
+    properties[row.FLOOR_MASS] += properties[row.BRACE_MASS]
+    braces = (row.BRACE_MASS, row.BRACE_STIFFNESS, row.BRACE_DAMPING, row.SLIP_FORCE, row.KINETIC_SLIP_FORCE)
+    properties[list(braces)] = 0.0
+    stiffness = building.stiffness_matrix + building.spring_matrix(given.properties[row.BRACE_STIFFNESS])
+    damping = building.damping_matrix + building.spring_matrix(given.properties[row.BRACE_DAMPING])
+    springs = (row.STOREY_STIFFNESS, row.GROUND_STIFFNESS, row.STOREY_DAMPING, row.GROUND_DAMPING)
+    properties[list(springs)] = 0.0
+    return Frame(properties, stiffness, damping)
 
 
 def building_of(grid: BuildingGrid, history: int) -> Building:
