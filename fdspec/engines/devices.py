@@ -162,6 +162,13 @@ def peaks_of(
     Returns what each storey has of its own by name, (N,), and what the building has: ``transitions``,
     energies, ``energy_error``, ``status``.
     """
+    return results_of(building, motion, free_steps)[:2]
+
+
+def results_of(
+    building: Building, motion: GroundMotion, free_steps: int = 0
+) -> tuple[dict[str, FloatArray], dict[str, float], dict[str, FloatArray]]:
+    """Return the same, and what each link has of its own by name, (M,)."""
     frame = building.device_frame
     span = Span(free_steps, motion.dt, 1)
     outcome = run(frame, motion, span, np.zeros((2, 2, building.n_storeys)))
@@ -174,7 +181,20 @@ def peaks_of(
         "energy_error": outcome.totals["energy_error"],
         "status": outcome.totals["status"],
     }
-    return storeys, totals
+    return storeys, totals, link_results(frame, outcome)
+
+
+def link_results(frame: DeviceFrame, outcome: Outcome) -> dict[str, FloatArray]:
+    """Return what each of the building's links has at the end of a history, by name, (M,)."""
+    tally, others = outcome.tally, frame.others
+    return {
+        "peak_link_slip": tally[row.PEAK_SLIP, others],
+        "residual_link_slip": outcome.sliders[0, others],
+        "peak_link_force": tally[row.PEAK_FORCE, others],
+        "link_energy": tally[row.WORK, others],
+        "link_events": tally[row.EVENTS, others],
+        "link_contacts": tally[row.CONTACTS, others],
+    }
 
 
 def _friction(frame: DeviceFrame, outcome: Outcome) -> float:

@@ -474,6 +474,11 @@ class Building:
         )
 
     @property
+    def link_names(self) -> tuple[str, ...]:
+        """Names of the links, in their order."""
+        return tuple(link.name or f"link {number}" for number, link in enumerate(self.links, start=1))
+
+    @property
     def is_one_frame(self) -> bool:
         """Whether every storey stands on the one counted before it."""
         return is_chain(self.stands_on)

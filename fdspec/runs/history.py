@@ -47,7 +47,7 @@ def history_of(
         if not building.is_one_frame:
             coords["stands_on"] = ("storey", building.stands_on)
         if building.links:
-            coords["link"] = [link.name or f"link {i}" for i, link in enumerate(building.links, start=1)]
+            coords["link"] = list(building.link_names)
     dataset = xr.Dataset(variables, coords=coords)
     dataset.attrs = provenance(
         "Response history of a building with friction dampers",

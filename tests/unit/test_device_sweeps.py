@@ -15,7 +15,7 @@ from fdspec.cli import main
 from fdspec.errors import InvalidInput, StudyError
 from fdspec.model.building_file import read_building
 from fdspec.runs.study import Study
-from fdspec.variables import STATUSES
+from fdspec.variables import STATUSES, link_variables
 from tests.reference import numbers
 
 GROUND, DT = numbers.motion("mdof_peaks.json")
@@ -153,6 +153,39 @@ def test_sweep_buildings_with_and_without_devices() -> None:
     assert (plain["peak_slip"] > 0.0).all()
     assert "peak_drift_ratio" not in cube
     assert (cube["status"] == 0).all()
+
+
+def test_cubes_have_what_each_link_takes(tmp_path: Path) -> None:
+    links = [Link(2, 0, 20e6, 20e3, name="high"), Link(1, 0, 30e6, 40e3, mass=50.0)]
+    pair = {"linked": office(links=links), "yielding too": office(links=links, yield_shear=60e3)}
+    axes: dict[str, Any] = {"slip_scale": [0.5, 1.0], "stiffness_scale": [1.0, 2.0]}
+    cube = fdspec.sweep_buildings([SHORT, BRIEF], pair, **axes)
+    assert cube["link"].values.tolist() == ["high", "link 2"]
+    history = fdspec.simulate(pair["yielding too"], SHORT)
+    cell = cube.sel(record="short", building="yielding too", slip_scale=1.0, stiffness_scale=1.0)
+    for variable in link_variables(()):
+        np.testing.assert_array_equal(cell[variable.name], history[variable.name], err_msg=variable.name)
+    assert (cube["peak_link_slip"] > 0.0).all()
+    stored = fdspec.sweep_buildings([SHORT, BRIEF], pair, **axes, store=tmp_path / "cube.zarr").load()
+    for name in cube.data_vars:
+        np.testing.assert_array_equal(cube[name], stored[name], err_msg=str(name))
+    fdspec.save(cube, tmp_path / "cube.nc")
+    assert fdspec.open(tmp_path / "cube.nc", lazily=False).identical(cube)
+    levels = fdspec.sweep_buildings(SHORT, pair["linked"], **axes, intensity=[1.0, 2.0])
+    assert levels["peak_link_slip"].sizes["intensity"] == 2
+    assert (levels["peak_link_slip"].sel(intensity=2.0) > cube["peak_link_slip"].sel(record="short")[0]).all()
+
+
+def test_links_that_differ_have_no_axis(tmp_path: Path) -> None:
+    pair = {"linked": office(links=[Link(2, 0, 20e6, 20e3)]), "plain": office()}
+    axes: dict[str, Any] = {"slip_scale": [1.0], "stiffness_scale": [1.0]}
+    cube = fdspec.sweep_buildings(BRIEF, pair, **axes)
+    assert "link" not in cube.dims
+    stored = fdspec.sweep_buildings(
+        BRIEF, pair, **axes, store=tmp_path / "cube.zarr", cells_per_task=1
+    ).load()
+    for name in cube.data_vars:
+        np.testing.assert_array_equal(cube[name], stored[name], err_msg=str(name))
 
 
 def test_choose_with_devices() -> None:
