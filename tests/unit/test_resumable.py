@@ -19,7 +19,7 @@ from fdspec.errors import DiskError, StoreError
 from fdspec.runs import resumable
 from fdspec.runs.resumable import differences, identity_of, plan_blocks
 from fdspec.runs.sweep import COLUMNS
-from fdspec.store import chunks
+from fdspec.store import chunks, description
 from fdspec.store.conversion import to_netcdf
 from fdspec.variables import CUBE, STUDY_DIMS
 from tests.unit.test_sweep import AXES, record
@@ -82,7 +82,7 @@ def test_what_is_removed_at_any_instant_of_a_write_is_told(
     motions: Motions, store: Path, monkeypatch: pytest.MonkeyPatch, part: str
 ) -> None:
     fdspec.sweep(motions, **AXES, store=store).close()
-    blocks = chunks.described(store)[0]
+    blocks = description.described(store)[0]
     cube = fdspec.open(store, lazily=False)
     variables = [CUBE[name] for name in map(str, cube.data_vars) if name in CUBE]
     values = {v.name: cube[v.name].values[blocks.region(0, v)] for v in variables if blocks.owns(0, v)}
@@ -295,7 +295,7 @@ def test_blocks_are_of_a_length_worth_a_task() -> None:
 
 def test_names_of_chunks_are_zarrs(motions: Motions, store: Path) -> None:
     fdspec.sweep(motions, **AXES, store=store, columns_per_task=2)
-    blocks, _ = chunks.described(store)
+    blocks, _ = description.described(store)
     variables = [CUBE[str(name)] for name in fdspec.open(store).data_vars]
     mine = {
         chunks.chunk_path(store, blocks, number, variable)
