@@ -152,7 +152,7 @@ def simulate(
     from fdspec.model.building import Building
     from fdspec.model.building_file import read_building
     from fdspec.runs.simulate import simulate as compute
-    from fdspec.runs.study import find_record
+    from fdspec.runs.study_records import find_record
     from fdspec.store import save
 
     if pretension is not None:

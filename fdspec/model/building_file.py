@@ -60,7 +60,7 @@ DEVICES = (
 )
 
 
-class _Link(BaseModel):
+class LinkTable(BaseModel):
     """What a table ``[[links]]`` may hold: the parameters of `Link`."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
@@ -78,8 +78,12 @@ class _Link(BaseModel):
     friction_stiffness: NotNegative | None = None
     name: str | None = None
 
+    def made(self) -> Link:
+        """Return the link."""
+        return Link(**self.model_dump())
 
-class _TensionBrace(BaseModel):
+
+class TensionBraceTable(BaseModel):
     """What a table ``[[tension_braces]]`` may hold: the parameters of `TensionBrace`."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
@@ -91,6 +95,10 @@ class _TensionBrace(BaseModel):
     slack: NotNegative = 0.0
     direction: int = 1
     name: str | None = None
+
+    def made(self) -> TensionBrace:
+        """Return the brace."""
+        return TensionBrace(**self.model_dump(exclude_none=True))
 
 
 class _Rayleigh(BaseModel):
@@ -131,8 +139,8 @@ class _File(BaseModel):
     recentring_stiffness: list[NotNegative] | NotNegative | None = None
     collapse_drift: list[PositiveOrInf] | PositiveOrInf | None = None
     stands_on: list[Annotated[int, Field(ge=0)]] | None = None
-    links: list[_Link] = []
-    tension_braces: list[_TensionBrace] = []
+    links: list[LinkTable] = []
+    tension_braces: list[TensionBraceTable] = []
 
     @model_validator(mode="after")
     def _told_once(self) -> _File:
@@ -250,8 +258,8 @@ def _building(file: _File) -> Building:
     options: dict[str, Any] = {
         **{name: getattr(file, name) for name in DEVICES},
         "links": [
-            *(Link(**link.model_dump()) for link in file.links),
-            *(TensionBrace(**brace.model_dump(exclude_none=True)) for brace in file.tension_braces),
+            *(link.made() for link in file.links),
+            *(brace.made() for brace in file.tension_braces),
         ],
         "slip_force": force,
         "kinetic_slip_force": kinetic,

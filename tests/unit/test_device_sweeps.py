@@ -10,10 +10,11 @@ import numpy as np
 import pytest
 
 import fdspec
-from fdspec import Building, Link, ModalDamping
+from fdspec import Building, Link, ModalDamping, TensionBrace
 from fdspec.cli import main
 from fdspec.errors import InvalidInput, StudyError
 from fdspec.model.building_file import read_building
+from fdspec.model.grid import Grid
 from fdspec.runs.study import Study
 from fdspec.variables import STATUSES, link_variables
 from tests.reference import numbers
@@ -58,6 +59,53 @@ def test_a_store_and_a_file_keep_them(tmp_path: Path) -> None:
         np.testing.assert_array_equal(cube[name], stored[name], err_msg=str(name))
     fdspec.save(cube, tmp_path / "cube.nc")
     assert fdspec.open(tmp_path / "cube.nc").identical(cube)
+
+
+ENDS = "upper = 1\nlower = 0\n"
+LINKS = (
+    Link(1, 0, 30e6, 25e3, mass=40.0, slot_length=0.01, slot_stiffness=5e7, name="second"),
+    TensionBrace(1, 0, 10e6, 60e3, slack=0.002),
+)
+
+
+def test_links_and_the_drift_of_collapse_in_sweeps_and_study_files() -> None:
+    cube = fdspec.sweep(SHORT, **AXES, links=LINKS, collapse_drift=0.5)
+    frame = Building.single_storey(
+        period=0.5, stiffness_ratio=2.0, slip_force=20e3, links=LINKS, collapse_drift=0.5
+    )
+    history = fdspec.simulate(frame, SHORT)
+    cell = cube.sel(record="short", period=0.5, pretension=40e3, stiffness_ratio=2.0)
+    for name in ("peak_acceleration", "residual_displacement", "peak_slip"):
+        np.testing.assert_array_equal(cell[name], history[name][0], err_msg=name)
+    assert (cube["peak_displacement"] < fdspec.sweep(SHORT, **AXES)["peak_displacement"]).mean() > 0.5
+    study = Study(grid=Grid(**AXES, links=LINKS, collapse_drift=0.5))
+    again = Study.parse(study.to_toml())
+    assert again.grid.links == LINKS
+    assert again.grid.collapse_drift == 0.5
+    assert again.grid.parameters["links"] == study.grid.parameters["links"]
+    fallen = fdspec.sweep(SHORT, **AXES, collapse_drift=0.001)
+    assert (fallen["status"] == 5).any()
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        (
+            "[[links]]\nupper = 1\nlower = 0\nstiffness = -1.0\nslip_force = 1.0",
+            "links: stiffness: Input should",
+        ),
+        ("[[links]]\nupper = 2\nlower = 0\nstiffness = 1.0\nslip_force = 1.0", "links: link 1 joins floor 2"),
+        (
+            "[[tension_braces]]\nupper = 1\nlower = 0\nstiffness = 1.0\nslack = -1.0",
+            "tension_braces: slack: ",
+        ),
+        ("links = 3", r"links: must be tables, \[\[links\]\], got 3"),
+        ("collapse_drift = 0.0", "collapse_drift: must be positive, got 0"),
+    ],
+)
+def test_what_a_study_file_refuses_of_links(text: str, sentence: str) -> None:
+    with pytest.raises(StudyError, match=f"study, line 1: {sentence}"):
+        Study.parse(text)
 
 
 def test_an_elastic_sweep_says_nothing_of_devices() -> None:
