@@ -135,10 +135,10 @@ def slips_on(frame, model, sign, series, reach, state, h, ground, rise, i):
         pull += abs(ground) + jerk
     swing = drift_rate - state[SLIDING, i]
     stretch = drift - state[OFFSET, i]
-    pull = (model[FRICTION, i] - stiffness * stretch - frame[BRACE_DAMPING, i] * swing) / mass - below
+    lag = (model[FRICTION, i] - stiffness * stretch - frame[BRACE_DAMPING, i] * swing) / mass - below
     slowness = model[SLOWNESS, i]
-    pull *= slowness
-    ring = math.sqrt(swing * swing + pull * pull) + jerk * slowness
+    lag *= slowness
+    ring = math.sqrt(swing * swing + lag * lag) + jerk * slowness
     return sign * drift_rate - h * pull > ring
 
 
