@@ -16,4 +16,5 @@ def positions(names: Sequence[str], sizes: Mapping[str, int] = MappingProxyType(
     """
     ends = accumulate(sizes.get(name, 1) for name in names)
     places = [end - sizes.get(name, 1) for name, end in zip(names, ends, strict=True)]
-    return namedtuple("Positions", names)._make(places)  # noqa: PYI024 (the names come at run time)
+    kind: Any = namedtuple("Positions", names)  # noqa: PYI024 (the names come at run time)
+    return kind(*places)

@@ -5,7 +5,7 @@ Study, equations (3) to (7) and the paragraph on the transition phase.  Floor an
 
     m_f (u_f'' + a_g) + c_f u_f' + k_f u_f = -R        m_d (u_d'' + a_g) + c_d u_d' + k_d u_d = +R
 
-With one common velocity the reaction that defers it common follows from the state alone.
+With one common velocity the reaction that keeps it common follows from the state alone.
 """
 
 from __future__ import annotations

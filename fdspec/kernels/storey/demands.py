@@ -7,7 +7,7 @@ is a quantity of that one oscillator.  While they slip the brace rings about its
 
 with ``ring`` the amplitude of its velocity, which does not grow.  A brace without mass carries s F_sl.
 
-The slip offset needs no search: sliding defers its sign until it comes to zero, and so the largest offset
+The slip offset needs no search: sliding keeps its sign until it comes to zero, and so the largest offset
 stands where slip stops, or at the history's end.
 """
 
