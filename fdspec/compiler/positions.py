@@ -15,6 +15,5 @@ def positions(names: Sequence[str], sizes: Mapping[str, int] = MappingProxyType(
     sizes: how many numbers a name has, where that is not one.
     """
     ends = accumulate(sizes.get(name, 1) for name in names)
-    places = [end - sizes.get(name, 1) for name, end in zip(names, ends, strict=True)]
-    kind: Any = namedtuple("Positions", names)  # noqa: PYI024 (the names come at run time)
-    return kind(*places)
+    places: list[Any] = [end - sizes.get(name, 1) for name, end in zip(names, ends, strict=True)]
+    return namedtuple("Positions", names)(*places)  # noqa: PYI024 (the names come at run time)
