@@ -52,7 +52,7 @@ def plot_contact_sheet(pictures: Mapping[str, bytes], *, title: str = "") -> Fig
             (left / width, bottom / tall, (WIDTH - 0.12) / width, (HEIGHT - 0.3) / tall), label=name
         )
         image = Image.open(io.BytesIO(png)).convert("RGB")
-        # Once here, by integers, rather than for each kind of file by matplotlib, which takes most of the time.
+        # Once here rather than for each kind of file by matplotlib, which takes most of the time.
         image.thumbnail((round(DPI * (WIDTH - 0.12)), round(DPI * (HEIGHT - 0.3))), Image.Resampling.LANCZOS)
         axis.imshow(image, interpolation="none")
         axis.set_axis_off()
