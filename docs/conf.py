@@ -16,6 +16,8 @@ from generated import commands  # beside this file
 
 # Kernels inherit it, and would then keep the figures of pyplot to themselves.
 os.environ.pop("MPLBACKEND", None)
+# A page shows no warning, so that none may be given: the notebook fails.
+os.environ["PYTHONWARNINGS"] = "error::UserWarning"
 
 project = "fdspec"
 author = "fdspec contributors"
@@ -50,6 +52,8 @@ nb_execution_mode = "force"
 nb_execution_timeout = 3600
 nb_execution_raise_on_error = True
 nb_merge_streams = True
+# Where no kernel is compiled yet, stderr says so; which notebook is the first is chance.
+nb_output_stderr = "remove"
 
 autodoc_member_order = "bysource"
 # Docstrings say what each argument is, with shape and unit; types would spread a signature over a page.

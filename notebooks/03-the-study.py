@@ -54,7 +54,8 @@ study = fdspec.Study()
 axes = {name: getattr(study.grid, name) for name in ("stiffness_ratio", "pretension", "period")}
 cube = fdspec.sweep(study.motions(), **axes)
 assert (cube.status == 0).all()
-print(dict(cube.sizes), f"largest energy error {cube.energy_error.max().item():.0e} of the input")
+print(" x ".join(f"{size} {name}" for name, size in cube.sizes.items()))
+print(f"largest energy error {cube.energy_error.max().item():.0e} of the input")
 pd.DataFrame({name: cube[name].values for name in ("event", "station", "scale_factor")}, cube.record.values)
 
 # %% [markdown]

@@ -19,6 +19,21 @@ MEASURES: Final = {
 POWERS: Final = {"^2": "²", "^3": "³"}
 
 
+SUPERSCRIPTS: Final = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def plain(value: float) -> str:
+    """Return a number in two digits as people write it.
+
+    Examples
+    --------
+    >>> plain(0.57), plain(9.33e-05)
+    ('0.57', '9.3 × 10⁻⁵')
+    """
+    number, _, power = f"{value:.2g}".partition("e")
+    return f"{number} × 10{str(int(power)).translate(SUPERSCRIPTS)}" if power else number
+
+
 def axis_label(name: str, unit: str = "1") -> str:
     """Return what stands at an axis: words, and the unit where there is one.
 

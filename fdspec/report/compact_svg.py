@@ -82,7 +82,7 @@ def _line(across: int, down: int) -> str:
 
 
 def _bars(found: re.Match[str]) -> str:
-    """Write bars of one look as one path, unless it would show where two overlap: by an edge, or through them."""
+    """Write bars of one look as one path, unless edges or opacity would show where two overlap."""
     if SEE_THROUGH in found["look"] or EDGE.search(found["look"]):
         return found[0]
     return f'<path d="{" ".join(BAR.findall(found[0]))}"{found["look"]}/>\n'

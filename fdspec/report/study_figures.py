@@ -210,7 +210,7 @@ def methods_compared() -> dict[str, xr.Dataset]:
 
     named: dict[str, str | methods.Method] = {
         "exact": methods.EXACT,
-        "the study's scheme (Newmark), step 1e-5 s": methods.Newmark(dt=1e-5),
+        "the study's scheme (Newmark), step 10⁻⁵ s": methods.Newmark(dt=1e-5),
         **{
             f"Dimova, linear within {band:g} m/s": methods.Dimova(velocity_band=band)
             for band in (0.001, 0.005, 0.01)

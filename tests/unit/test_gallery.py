@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.text import Text
 
 from fdspec.errors import InvalidInput
 from fdspec.model.motion import GroundMotion
@@ -120,3 +121,28 @@ def test_every_method_follows_the_exact_displacement_as_far_as_its_model_goes() 
     bands = [off[f"Dimova, linear within {band:g} m/s"] for band in (0.001, 0.005, 0.01)]
     assert bands == sorted(bands)
     assert off["rigid-plastic"] == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("number", ["8", "9"])
+def test_in_print_no_letter_is_smaller_than_seven_points_and_no_title_is_drawn(number: str) -> None:
+    motions = [load_record(name) for name in RECORD_FIGURES]
+    (picture,) = [one for one in study_pictures(cube_of(motions)) if one.number == number]
+    figure = picture.draw_print(180.0)
+    figure.draw_without_rendering()
+    sizes = {text.get_text(): text.get_fontsize() for text in figure.findobj(Text) if text.get_text()}
+    assert min(sizes.values()) > 6.99, sizes
+    assert figure.get_suptitle() == ""
+
+
+@pytest.mark.parametrize("small", [False, True])
+def test_the_names_of_records_and_of_stations_stand_apart(small: bool) -> None:
+    motions = [load_record(name) for name in RECORD_FIGURES]
+    (picture,) = [one for one in study_pictures(cube_of(motions)) if one.number == "8"]
+    figure = picture.draw_small() if small else picture.draw_print(180.0)
+    figure.draw_without_rendering()
+    for axis in figure.axes:
+        name, station = (
+            next(text for text in axis.findobj(Text) if text.get_text() == axis.get_title(loc))
+            for loc in ("left", "right")
+        )
+        assert not name.get_window_extent().overlaps(station.get_window_extent()), name.get_text()
