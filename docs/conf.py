@@ -1,6 +1,7 @@
 """Settings of the documentation: pages, notebooks kept as Python files, docstrings, and what is generated."""
 
 import os
+import re
 import sys
 from pathlib import Path
 
@@ -73,6 +74,8 @@ def setup(app: Sphinx) -> None:
 
 def fill(_: Sphinx, docname: str, source: list[str]) -> None:
     """Put the registry's tables into the page on files, and every command's help into its reference."""
+    if not docname.startswith("notebooks/"):
+        source[0] = kept_together(source[0])
     if docname == "schema":
         for name in ("CUBE", "BUILDING_CUBE", "HISTORY"):
             source[0] = source[0].replace(f"@@{name}@@", table_of(getattr(variables, name)))
@@ -80,6 +83,15 @@ def fill(_: Sphinx, docname: str, source: list[str]) -> None:
         source[0] = source[0].replace("@@VERSION@@", release)
     if docname == "cli":
         source[0] = source[0].replace("@@COMMANDS@@", commands())
+
+
+def kept_together(text: str) -> str:
+    """Part no number from its unit at the end of a line; code stays as it is written."""
+    parts = re.split(r"(^```.*?^```$|`[^`\n]*`)", text, flags=re.MULTILINE | re.DOTALL)
+    parts[::2] = [
+        re.sub(r"(?<=\d) (?=(?:%|kN|MN|mm|ms|kg|s|g)(?!\w))", "\u00a0", part) for part in parts[::2]
+    ]
+    return "".join(parts)
 
 
 def table_of(registry: variables.Registry) -> str:

@@ -27,11 +27,18 @@ def plain(value: float) -> str:
 
     Examples
     --------
-    >>> plain(0.57), plain(9.33e-05)
-    ('0.57', '9.3 × 10⁻⁵')
+    >>> plain(0.57), plain(9.33e-05), plain(7020.0)
+    ('0.57', '9.3 × 10⁻⁵', '7000')
     """
     number, _, power = f"{value:.2g}".partition("e")
-    return f"{number} × 10{str(int(power)).translate(SUPERSCRIPTS)}" if power else number
+    if not power:
+        return number
+    whole = int(power)
+    return (
+        f"{float(number) * 10**whole:.0f}"
+        if whole > 0
+        else f"{number} × 10{str(whole).translate(SUPERSCRIPTS)}"
+    )
 
 
 def axis_label(name: str, unit: str = "1") -> str:
