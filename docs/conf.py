@@ -35,6 +35,11 @@ extensions = [
 ]
 exclude_patterns = ["_build", "conf.py", "generated.py", "jupyter_execute", "notebooks/README.md"]
 
+# What docstrings set apart are formulas; code has its prompt.
+highlight_language = "none"
+# Quotes are made round; -- before an option is not a dash.
+smartquotes_action = "qe"
+
 html_theme = "furo"
 html_title = f"fdspec {release}"
 html_static_path = ["_static"]
@@ -86,21 +91,25 @@ def fill(_: Sphinx, docname: str, source: list[str]) -> None:
 
 
 def kept_together(text: str) -> str:
-    """Part no number from its unit at the end of a line; code stays as it is written."""
+    """Part no number from its unit or its thousands at the end of a line; code stays as it is written."""
     parts = re.split(r"(^```.*?^```$|`[^`\n]*`)", text, flags=re.MULTILINE | re.DOTALL)
-    parts[::2] = [
-        re.sub(r"(?<=\d) (?=(?:%|kN|MN|mm|ms|kg|s|g)(?!\w))", "\u00a0", part) for part in parts[::2]
-    ]
+    within = r"(?<=\d) (?=(?:\d{3}|%|kN|MN|mm|ms|kg|s|g)(?!\w))"
+    parts[::2] = [re.sub(within, "\u00a0", part) for part in parts[::2]]
     return "".join(parts)
 
 
 def table_of(registry: variables.Registry) -> str:
     """Return a registry as a table of Markdown."""
     rows = [
-        f"| `{one.name}` | {', '.join(one.dims) or '-'} | {one.units or '-'} | {one.dtype} | {meaning(one)} |"
+        f"| `{one.name}` | {over(one)} | {one.units or '-'} | {one.dtype} | {meaning(one)} |"
         for one in registry.values()
     ]
     return "\n".join(["| name | over | units | type | meaning |", "|---|---|---|---|---|", *rows])
+
+
+def over(variable: variables.Variable) -> str:
+    """Return the dims; most variables have all that there are, which the page says before the table."""
+    return "all dims" if len(variable.dims) >= 4 else ", ".join(variable.dims) or "-"
 
 
 def meaning(variable: variables.Variable) -> str:
