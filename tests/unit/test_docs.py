@@ -60,8 +60,8 @@ def test_pages_assume_no_published_package() -> None:
 
 def test_no_line_of_prose_begins_with_a_per_cent_sign() -> None:
     """To MyST it is a comment, and the rest of the sentence is gone from the page."""
-    pages = {path: r"^\s*%" for path in [*DOCS.rglob("*.md"), *DOCS.parent.glob("*.md")]}
-    notebooks = {path: r"^#\s+%(?!%)" for path in (DOCS.parent / "notebooks").glob("*.py")}
+    pages = dict.fromkeys([*DOCS.rglob("*.md"), *DOCS.parent.glob("*.md")], r"^\s*%")
+    notebooks = dict.fromkeys((DOCS.parent / "notebooks").glob("*.py"), r"^#\s+%(?!%)")
     found = [
         f"{path.name}: {line}"
         for path, comment in (pages | notebooks).items()
