@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from fdspec.model.link import Link as Link
     from fdspec.model.link import TensionBrace as TensionBrace
     from fdspec.model.motion import GroundMotion as GroundMotion
+    from fdspec.model.side_by_side import side_by_side as side_by_side
     from fdspec.records import load_record as load_record
     from fdspec.records import read_record as read_record
     from fdspec.runs.floor_spectra import floor_spectra as floor_spectra
@@ -61,6 +62,7 @@ _NAMES = {
     "model.damping": ("DampingMatrix", "ModalDamping", "RayleighDamping"),
     "model.link": ("Link", "TensionBrace"),
     "model.motion": ("GroundMotion",),
+    "model.side_by_side": ("side_by_side",),
     "records": ("load_record", "read_record"),
     "measures.fragility": ("fragility",),
     "measures.risk": ("risk",),

@@ -204,6 +204,21 @@ def device_variables(each: tuple[str, ...]) -> tuple[Variable, ...]:
     )
 
 
+def link_variables(each: tuple[str, ...]) -> tuple[Variable, ...]:
+    """Return what only buildings with links have of each link."""
+    slip = "largest slip of the link from where it was fastened"
+    return (
+        Variable("peak_link_slip", each, "m", slip, degree=1),
+        Variable("residual_link_slip", each, "m", "final slip offset of the link", degree=1),
+        Variable("peak_link_force", each, "N", "peak force in the brace of the link", degree=1),
+        Variable("link_energy", each, "J", "energy dissipated in the link", degree=2),
+        Variable("link_events", each, "1", "number of changes of phase of the link", "int64", degree=0),
+        Variable(
+            "link_contacts", each, "1", "number of contacts and releases in the link", "int64", degree=0
+        ),
+    )
+
+
 def _variables_of_indices() -> tuple[Variable, ...]:
     """Return what performance indices need beside the responses, the bare frame's share included."""
     bare, braced = ("record", "period"), ("record", "stiffness_ratio", "period")
@@ -269,6 +284,8 @@ BUILDING_DIMS: Final = ("record", "building", "stiffness_scale", "slip_scale")
 
 _EACH_STOREY: Final = (*BUILDING_DIMS, "storey")
 
+STANDS_ON: Final = "floor that the storey stands on, 0 the ground; there with frames beside each other"
+
 BUILDING_CUBE: Final[Registry] = registry_of(
     motion_variables(("record",)),
     (
@@ -289,6 +306,7 @@ BUILDING_CUBE: Final[Registry] = registry_of(
             "N",
             "friction force of the damper while it slips",
         ),
+        Variable("stands_on", ("building", "storey"), "1", STANDS_ON, "int64"),
         Variable(
             "brace_stiffness", ("building", "stiffness_scale", "storey"), "N/m", "stiffness of the brace"
         ),
@@ -357,8 +375,11 @@ BUILDING_CUBE: Final[Registry] = registry_of(
         ),
     ),
     device_variables(_EACH_STOREY),
+    (Variable("link", ("link",), "", "name of the link", TEXT),),
+    link_variables((*BUILDING_DIMS, "link")),
 )
-"""The variables of a sweep over buildings, dims (record, building, stiffness_scale, slip_scale, storey)."""
+"""The variables of a sweep over buildings: dims (record, building, stiffness_scale, slip_scale), and storey
+or link where each has its own."""
 
 
 def over_intensity(registry: Registry) -> Registry:
@@ -451,17 +472,13 @@ HISTORY: Final[Registry] = registry_of(
         Variable("gravity_energy", _OVER_TIME, "J", "work done by gravity on the leaning frame"),
         Variable("yielding_energy", _OVER_TIME, "J", "energy dissipated by yielding of all columns"),
         Variable("links_energy", _OVER_TIME, "J", "energy dissipated in all links"),
+        Variable("stands_on", _STOREY, "1", STANDS_ON, "int64"),
         Variable("link", _LINK, "", "name of the link", TEXT),
         Variable("link_slip", _EACH_LINK, "m", "slip offset of the link, of a one-sided brace its slack"),
         Variable("link_force", _EACH_LINK, "N", "force in the brace of the link"),
         Variable("link_phase", _EACH_LINK, "", "phase of the link", "int8", _flags(PHASES)),
-        Variable("peak_link_slip", _LINK, "m", "largest slip of the link from where it was fastened"),
-        Variable("residual_link_slip", _LINK, "m", "final slip offset of the link"),
-        Variable("peak_link_force", _LINK, "N", "peak force in the brace of the link"),
-        Variable("link_energy", _LINK, "J", "energy dissipated in the link"),
-        Variable("link_events", _LINK, "1", "number of changes of phase of the link", "int64"),
-        Variable("link_contacts", _LINK, "1", "number of contacts and releases in the link", "int64"),
     ),
+    link_variables(_LINK),
 )
 """The variables of one simulated history, dims time, storey, transition and, where there are any, link."""
 

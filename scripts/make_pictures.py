@@ -8,7 +8,7 @@ from pathlib import Path
 
 import fdspec
 from fdspec.figures import encode, plot_choice_index, plot_sketch
-from fdspec.runs.study import STUDY_RECORDS
+from fdspec.runs.study_records import STUDY_RECORDS
 
 ROOT = Path(__file__).parents[1]
 

@@ -56,8 +56,9 @@ def synthetic_building_cube(
         "slip_scale": np.array([0.0, 0.5, 1.0, np.inf]),
         "storey": np.arange(1, 4),
     }
-    sizes = {name: values.size for name, values in known.items()}
-    return _filled(BUILDING_CUBE, sizes, known, {*BUILDING_DIMS, "storey"}, seed)
+    sizes = {name: values.size for name, values in known.items()} | {"link": 2}
+    known["stands_on"] = np.array([[0, 1, 0]] * sizes["building"])
+    return _filled(BUILDING_CUBE, sizes, known, {*BUILDING_DIMS, "storey", "stands_on"}, seed)
 
 
 def synthetic_history(
@@ -69,8 +70,9 @@ def synthetic_history(
         "record": np.array(record),
         "time": 0.01 * np.arange(samples),
         "storey": np.arange(1, storeys + 1),
+        "stands_on": np.arange(storeys),
     }
-    return _filled(HISTORY, sizes, known, {"time", "storey", "record"}, seed)
+    return _filled(HISTORY, sizes, known, {"time", "storey", "record", "stands_on"}, seed)
 
 
 def _filled(

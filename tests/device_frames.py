@@ -31,12 +31,12 @@ def random_motion(rng: np.random.Generator, seconds: float) -> fdspec.GroundMoti
 
 
 def random_building(
-    rng: np.random.Generator, most_storeys: int = 10, *, adversarial: bool = False
+    rng: np.random.Generator, most_storeys: int = 10, *, adversarial: bool = False, beside: bool = False
 ) -> fdspec.Building:
     """A frame of 1 to ``most_storeys`` storeys with a random mixture of devices.
 
     adversarial: forces that tie, slots of no length to speak of, kinetic friction of 0, light plates, many
-    plates at one floor.
+    plates at one floor.  beside: every storey stands on any floor before it or on the ground.
     """
     size = int(rng.integers(1, most_storeys + 1))
     mass = rng.uniform(1e4, 5e4, size)
@@ -72,6 +72,8 @@ def random_building(
     if rng.random() < 0.3:
         devices["recentring_stiffness"] = brace * rng.uniform(0.0, 0.3)
     links = [_random_link(rng, size, weight, stiffness, adversarial) for _ in range(int(rng.integers(0, 5)))]
+    if beside:
+        devices["stands_on"] = [int(rng.integers(0, floor + 1)) for floor in range(size)]
     return fdspec.Building(
         mass,
         stiffness,

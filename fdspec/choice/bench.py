@@ -160,7 +160,7 @@ class Bench:
 
     def _reach(self, motion: GroundMotion) -> FloatArray:
         peak = self.peaks_of(self._stuck, motion)
-        velocity = peak["peak_velocity"] + np.append(0.0, peak["peak_velocity"][:-1])
+        velocity = peak["peak_velocity"] + np.append(0.0, peak["peak_velocity"])[self.building.stands_on]
         return _reach(self.building, peak["peak_acceleration"], peak["peak_drift"], velocity)
 
     @property
@@ -333,12 +333,12 @@ def _largest(
     building: Building, row: Mapping[str, FloatArray], total: Mapping[str, float]
 ) -> dict[str, float]:
     """Responses of a building from those of its storeys (N,) and of the whole."""
-    residual = np.diff(row["residual_displacement"], prepend=0.0)
+    residual = building.drifts(row["residual_displacement"])
     return {
         "peak_acceleration": float(row["peak_acceleration"].max()),
         "peak_displacement": float(row["peak_drift"].max()),
         "peak_velocity": float(row["peak_velocity"].max()),
-        "peak_base_shear": float(row["peak_storey_shear"][0]),
+        "peak_base_shear": float(row.get("peak_base_shear", row["peak_storey_shear"])[0]),
         "residual_displacement": float(np.abs(residual).max()),
         "slip_travel": float(row["slip_travel"].max()),
         "peak_slip": float(row["peak_slip"].max()),

@@ -19,6 +19,7 @@ from fdspec.measures.ensemble import statistic_of
 from fdspec.measures.indices import Weights, needs_of, weights_of
 from fdspec.model.building import Building
 from fdspec.model.grid import Grid
+from fdspec.model.link import Link, TensionBrace
 from fdspec.model.motion import GroundMotion
 from fdspec.runs.bounds import SWEEP_HOURS, refuse_long
 from fdspec.runs.cost import PER_SEARCH
@@ -66,6 +67,8 @@ def best_pretension(
     slot_length: float | None = None,
     slot_stiffness: float | None = None,
     recentring_stiffness: float | None = None,
+    collapse_drift: float | None = None,
+    links: Sequence[Link | TensionBrace] = (),
     workers: int | None = None,
     progress: Shown = False,
 ) -> xr.Dataset:
@@ -92,7 +95,7 @@ def best_pretension(
         Share above the least index that counts as nearly as good.
     floor_mass, brace_mass, damping_ratio, friction_coefficient, kinetic_friction_coefficient, \
     normal_force_factor, brace_damping_ratio, storey_height, yield_shear, hardening_ratio, gravity_load, \
-    slot_length, slot_stiffness, recentring_stiffness : float
+    slot_length, slot_stiffness, recentring_stiffness, collapse_drift, links
         As for `fdspec.sweep`.
     workers : int, optional
         Threads; one a core unless given.  No result depends on it.
@@ -139,6 +142,8 @@ def best_pretension(
         slot_length=slot_length,
         slot_stiffness=slot_stiffness,
         recentring_stiffness=recentring_stiffness,
+        collapse_drift=collapse_drift,
+        links=links,  # type: ignore[arg-type]
     )
     if grid.friction_coefficient == 0.0:
         raise InvalidInput(

@@ -181,7 +181,7 @@ def choose(
     from fdspec.model.building import Building
     from fdspec.model.building_file import read_building
     from fdspec.report.text import text
-    from fdspec.runs.study import STUDY_RECORDS, find_record
+    from fdspec.runs.study_records import STUDY_RECORDS, find_record
 
     chosen: Building = (
         read_building(building)

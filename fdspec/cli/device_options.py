@@ -18,6 +18,7 @@ _OPTIONS: Final = {
     "slot_length": ("M", "Free slip to either side before the bolts bear, m.  [default: no end]"),
     "slot_stiffness": ("N/M", "Of the bolts in bearing, N/m."),
     "recentring_stiffness": ("N/M", "Of a spring across the slider, N/m."),
+    "collapse_drift": ("M", "Drift at which the frame has collapsed, m.  [default: a tenth of the height]"),
 }
 
 DEVICES: Final = tuple(_OPTIONS)

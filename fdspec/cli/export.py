@@ -162,7 +162,7 @@ def _write_script(source: str, output: str | None, record: str | None, form: str
     building = read_building(source, design=True)
     if form == "opensees":
         from fdspec.exchange.opensees import opensees_script
-        from fdspec.runs.study import find_record
+        from fdspec.runs.study_records import find_record
 
         text = opensees_script(building, find_record(str(record)), name=name)
     else:

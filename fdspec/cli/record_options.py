@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 import click
 
 if TYPE_CHECKING:
-    from fdspec.runs.study import RecordFile
+    from fdspec.runs.study_records import RecordFile
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -138,7 +138,7 @@ def _matching(given: str) -> list[str]:
 
 
 def _named(names: list[str], about: AboutFile) -> tuple[str | RecordFile, ...]:
-    from fdspec.runs.study import RecordFile, is_catalogued
+    from fdspec.runs.study_records import RecordFile, is_catalogued
 
     if not names or not all(name.strip() for name in names):
         raise click.UsageError("A record has a name or is a file: give one.")

@@ -71,7 +71,7 @@ def convert_record(
     path = free(output, force=force, suffixes=(".at2", ".txt"))
 
     from fdspec.records.writing import write_record
-    from fdspec.runs.study import find_record
+    from fdspec.runs.study_records import find_record
     from fdspec.signals import processing
     from fdspec.units import G
 

@@ -53,7 +53,7 @@ def draw_records(
 
     from fdspec.cli.record_spectra import drawn_spectra
     from fdspec.figures import plot_histories, plot_spectra
-    from fdspec.runs.study import STUDY_RECORDS, find_record
+    from fdspec.runs.study_records import STUDY_RECORDS, find_record
     from fdspec.store.provenance import origins
 
     folder = made_folder(output)

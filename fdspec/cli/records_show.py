@@ -68,7 +68,7 @@ def show_record(
     picture = None if figure is None else free(figure, force=force, suffixes=PICTURES)
 
     from fdspec.records import catalogue
-    from fdspec.runs.study import find_record, is_catalogued
+    from fdspec.runs.study_records import find_record, is_catalogued
     from fdspec.units import G
 
     named = record_about(record, about)

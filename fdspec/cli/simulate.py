@@ -11,7 +11,7 @@ from fdspec.cli.device_options import DEVICES, device_options, given
 from fdspec.cli.echo import echo
 from fdspec.cli.output import PICTURES, force_option, free, save_picture
 from fdspec.cli.record_options import file_options, named_record
-from fdspec.cli.storey_columns import STOREY_COLUMNS
+from fdspec.cli.storey_columns import LINK_COLUMNS, STOREY_COLUMNS
 from fdspec.cli.table import table
 
 if TYPE_CHECKING:
@@ -152,7 +152,7 @@ def simulate(
     from fdspec.model.building import Building
     from fdspec.model.building_file import read_building
     from fdspec.runs.simulate import simulate as compute
-    from fdspec.runs.study import find_record
+    from fdspec.runs.study_records import find_record
     from fdspec.store import save
 
     if pretension is not None:
@@ -186,6 +186,9 @@ def simulate(
     if building is not None:
         echo(_storeys(history))
         echo()
+        if "link" in history:
+            echo(_links(history))
+            echo()
     echo(_results(history))
     echo("\n".join(map(str, paths)))
 
@@ -225,6 +228,19 @@ def _storeys(history: xr.Dataset) -> str:
     ]
     head = ["storey", "slips at kN", *(column.head for column in shown.values()), "phases"]
     return table(head, rows)
+
+
+def _links(history: xr.Dataset) -> str:
+    """Return a table of the links."""
+    columns = {name: column for name, column in LINK_COLUMNS.items() if name in history}
+    rows = [
+        [
+            str(link),
+            *(f"{column.scale * float(history[name].values[k]):.4g}" for name, column in columns.items()),
+        ]
+        for k, link in enumerate(history["link"].values)
+    ]
+    return table(["link", *(column.head for column in columns.values())], rows)
 
 
 def _results(history: xr.Dataset) -> str:

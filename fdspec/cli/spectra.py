@@ -76,7 +76,7 @@ def spectra(
     spectra. Peaks are those of the continuous motion, free vibration after the record included.
     """
     from fdspec.runs.inelastic_spectra import inelastic_spectra
-    from fdspec.runs.study import STUDY_RECORDS, find_record
+    from fdspec.runs.study_records import STUDY_RECORDS, find_record
     from fdspec.signals.spectra import elastic_spectra
 
     path = free(output, force=force, suffixes=(".nc", ".csv", *PICTURES))

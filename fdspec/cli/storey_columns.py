@@ -24,3 +24,12 @@ STOREY_COLUMNS: Final = {
     "residual_drift": Column("residual mm", 1e3),
 }
 """Variable -> its column; what a cube or a history does not have is left out."""
+
+LINK_COLUMNS: Final = {
+    "peak_link_slip": Column("slip mm", 1e3),
+    "residual_link_slip": Column("residual mm", 1e3),
+    "peak_link_force": Column("force kN", 1e-3),
+    "link_energy": Column("energy kJ", 1e-3),
+    "link_events": Column("phases", 1.0),
+}
+"""The same of links."""

@@ -97,11 +97,11 @@ def run(
         floors, sliders = parts[0].reshape(floors.shape).copy(), parts[1].reshape(sliders.shape).copy()
         mode = np.ascontiguousarray(parts[2].reshape(mode.shape), dtype=np.int64)
     tally = np.empty((row.TALLY_ROWS, links))
-    peaks = np.empty((PEAK_ROWS, size))
+    peaks = np.empty((PEAK_ROWS, frame.carried.shape[0]))
     totals = np.empty(len(TOTALS))
     room = _room(0, 0, size, links) if traces is None else traces
     integrate(
-        *frame[:8],
+        *frame[:10],
         motion.acceleration,
         motion.dt,
         span.free_steps,
@@ -162,6 +162,13 @@ def peaks_of(
     Returns what each storey has of its own by name, (N,), and what the building has: ``transitions``,
     energies, ``energy_error``, ``status``.
     """
+    return results_of(building, motion, free_steps)[:2]
+
+
+def results_of(
+    building: Building, motion: GroundMotion, free_steps: int = 0
+) -> tuple[dict[str, FloatArray], dict[str, float], dict[str, FloatArray]]:
+    """Return the same, and what each link has of its own by name, (M,)."""
     frame = building.device_frame
     span = Span(free_steps, motion.dt, 1)
     outcome = run(frame, motion, span, np.zeros((2, 2, building.n_storeys)))
@@ -174,7 +181,20 @@ def peaks_of(
         "energy_error": outcome.totals["energy_error"],
         "status": outcome.totals["status"],
     }
-    return storeys, totals
+    return storeys, totals, link_results(frame, outcome)
+
+
+def link_results(frame: DeviceFrame, outcome: Outcome) -> dict[str, FloatArray]:
+    """Return what each of the building's links has at the end of a history, by name, (M,)."""
+    tally, others = outcome.tally, frame.others
+    return {
+        "peak_link_slip": tally[row.PEAK_SLIP, others],
+        "residual_link_slip": outcome.sliders[0, others],
+        "peak_link_force": tally[row.PEAK_FORCE, others],
+        "link_energy": tally[row.WORK, others],
+        "link_events": tally[row.EVENTS, others],
+        "link_contacts": tally[row.CONTACTS, others],
+    }
 
 
 def _friction(frame: DeviceFrame, outcome: Outcome) -> float:
@@ -186,7 +206,8 @@ def _friction(frame: DeviceFrame, outcome: Outcome) -> float:
 def storey_results(building: Building, frame: DeviceFrame, outcome: Outcome) -> dict[str, FloatArray]:
     """Return what each storey has of its own at the end of a history, by name, (N,)."""
     dampers, columns = frame.dampers, frame.columns
-    tally, peaks = outcome.tally, outcome.peaks
+    size = dampers.size
+    tally, peaks = outcome.tally, outcome.peaks[:, :size]
     displacement = outcome.floors[0, 1:].copy()
     offset = _of_storeys(outcome.sliders[0], dampers)
     can_yield = columns >= 0
@@ -199,6 +220,10 @@ def storey_results(building: Building, frame: DeviceFrame, outcome: Outcome) -> 
         "peak_velocity": peaks[PEAK_VELOCITY],
         "peak_drift": peaks[PEAK_DRIFT],
         "peak_storey_shear": peaks[PEAK_SHEAR],
+        # On the ground: of the first storey, of all frames where several stand there.
+        "peak_base_shear": np.full(
+            size, outcome.peaks[PEAK_SHEAR, size if outcome.peaks.shape[1] > size else 0]
+        ),
         "peak_brace_displacement": np.where(
             dampers >= 0, _of_storeys(tally[row.PEAK_TOP], dampers), peaks[PEAK_DISPLACEMENT]
         ),
@@ -233,7 +258,7 @@ def _trajectory(
     ours = storey_of[traces.log[0]] >= 0
     tally, totals = outcome.tally, outcome.totals
     result = storey_results(building, frame, outcome)
-    drift = np.diff(floor["displacement"], axis=1, prepend=0.0)
+    drift = building.drifts(floor["displacement"])
     elastic = np.where(columns >= 0, building.hardening_ratio, 1.0) * frame_stiffness(building)
     storey = int(totals["collapse_storey"])
     devices = DeviceTrajectory(
@@ -282,7 +307,7 @@ def _trajectory(
         peak_velocity=result["peak_velocity"],
         peak_drift=result["peak_drift"],
         peak_storey_shear=result["peak_storey_shear"],
-        peak_base_shear=float(result["peak_storey_shear"][0]),
+        peak_base_shear=float(result["peak_base_shear"][0]),
         residual_displacement=result["residual_displacement"],
         peak_slip=result["peak_slip"],
         residual_slip=result["residual_slip"],

@@ -46,7 +46,7 @@ def opensees_script(building: Building, motion: GroundMotion, *, name: str = "bu
     if building.has_devices:
         raise InvalidInput(
             "the script holds frame, braces and friction; this building has columns that yield, gravity, "
-            "slots, springs or links beside them"
+            "slots, springs or links beside them, or several frames"
         )
     braced = building.brace_stiffness > 0.0
     if (building.kinetic_slip_force != building.slip_force)[braced].any():

@@ -80,7 +80,7 @@ def custom_analysis(AIM=None, EVENT=None, SAM=None, EDP=None, BIM=None):
     motion = ground_motion(EVENT, metres)
     history = fdspec.simulate(building, motion)
     found = {f"1-PFA-0-{DIRECTION}": motion.pga / metres}
-    drift = np.diff(history["residual_displacement"].values, prepend=0.0)
+    drift = building.drifts(history["residual_displacement"].values)
     for k, height in enumerate(building.storey_height):
         floor = f"{k + 1}-{DIRECTION}"
         found[f"1-PFA-{floor}"] = float(history["peak_acceleration"][k]) / metres
@@ -88,8 +88,9 @@ def custom_analysis(AIM=None, EVENT=None, SAM=None, EDP=None, BIM=None):
         if np.isfinite(height):
             found[f"1-PID-{floor}"] = float(history["peak_drift"][k] / height)
             found[f"1-RID-{floor}"] = float(abs(drift[k]) / height)
-    total = building.storey_height.sum()
-    if np.isfinite(total):
-        found[f"1-PRD-1-{DIRECTION}"] = float(history["peak_displacement"][-1] / total)
+    heights = building.floor_height
+    if np.isfinite(heights).all():
+        roof = int(np.argmax(heights))
+        found[f"1-PRD-1-{DIRECTION}"] = float(history["peak_displacement"][roof] / heights[roof])
     return found
 '''

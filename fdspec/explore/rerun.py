@@ -12,6 +12,7 @@ from fdspec.explore.motions import Found, Motions
 from fdspec.explore.traces import LOOP_FINER, packed_history
 from fdspec.model.building import Building
 from fdspec.model.grid import DEVICE_FIELDS
+from fdspec.model.link import link_of
 from fdspec.runs.bounds import refuse_long
 from fdspec.runs.cost import seconds_of_history
 from fdspec.runs.simulate import simulate
@@ -120,8 +121,11 @@ def _parameters(cube: xr.Dataset) -> tuple[dict[str, Any], dict[str, Any]]:
     """Return what the cube's provenance says of frame and friction, as `fdspec.sweep` names it."""
     try:
         told: dict[str, Any] = json.loads(str(cube.attrs["parameters"]))
-        frame = {name: float(told[name]) for name in FRAME}
-        frame |= {name: float(told[name]) for name in DEVICE_FIELDS if told.get(name) is not None}
+        frame: dict[str, Any] = {name: float(told[name]) for name in FRAME}
+        scalars = [name for name in DEVICE_FIELDS if name != "links" and told.get(name) is not None]
+        frame |= {name: float(told[name]) for name in scalars}
+        if told.get("links"):
+            frame["links"] = [link_of(link) for link in told["links"]]
         return frame, {name: None if told[name] is None else float(told[name]) for name in FRICTION}
     except (KeyError, TypeError, ValueError) as error:
         raise InvalidInput(

@@ -80,9 +80,10 @@ def plot_profiles(
     figure = Figure(figsize=(2.6 * len(panels) + 0.6, 5.2), layout="constrained")
     axes = np.atleast_1d(figure.subplots(1, len(panels), sharey=True))
     storeys = good["storey"].values.astype(int)
+    frames = good["stands_on"].values if "stands_on" in good.coords else storeys - 1
     for axis, (name, panel) in zip(axes, panels, strict=True):
         values = panel.scale * good[name].transpose("record", "storey").values
-        _draw(axis, values, storeys, panel)
+        _draw(axis, *_apart(values, storeys, frames), panel)
     axes[0].set_ylabel("storey")
     axes[0].set_yticks(storeys)
     axes[0].set_ylim(0.0, storeys[-1] + 0.6)
@@ -130,6 +131,12 @@ def profiles_caption(one: xr.Dataset) -> str:
         "line: median; band: 16 to 84 % of the records. Peaks of floors stand at the floor, of storeys "
         "between floors."
     )
+
+
+def _apart(values: np.ndarray, storeys: np.ndarray, stands_on: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Put a gap, which no line crosses, before each storey that does not stand on the one before it."""
+    gaps = np.flatnonzero(stands_on != storeys - 1)
+    return np.insert(values, gaps, np.nan, axis=1), np.insert(storeys.astype(float), gaps, np.nan)
 
 
 def _draw(axis: Axes, values: np.ndarray, storeys: np.ndarray, panel: Profile) -> None:

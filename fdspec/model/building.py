@@ -29,6 +29,7 @@ from fdspec.model.device_frame import DeviceFrame, device_frame
 from fdspec.model.link import Link, TensionBrace
 from fdspec.model.number_check import not_negative_number, positive_number
 from fdspec.model.springs import Frame, Linkage, shear_matrix
+from fdspec.model.standing import IntArray, checked_stands_on, drifts, elevations, is_chain, spring_matrix
 
 __all__ = [
     "Building",
@@ -106,6 +107,10 @@ class Building:
     collapse_drift : m, optional
         Drift at which a history ends with the status ``collapsed``. By default a tenth of the storey's
         height where gravity or softening columns may make the building unstable, else there is none.
+    stands_on : sequence of N ints, optional
+        The floor that each storey stands on, counted from 1 and before its own; 0 is the ground. By default
+        each stands on the one before. ``[0, 1, 2, 0, 4]`` is a frame of three storeys beside one of two;
+        `links` may join them. `side_by_side` makes it of two buildings.
 
     Raises
     ------
@@ -138,6 +143,7 @@ class Building:
     recentring_stiffness: Array
     links: tuple[Link | TensionBrace, ...]
     collapse_drift: Array
+    stands_on: IntArray
 
     # A dataclass would demand the arrays themselves; callers may hand over any numbers.
     def __init__(
@@ -160,6 +166,7 @@ class Building:
         recentring_stiffness: ArrayLike | None = None,
         links: Sequence[Link | TensionBrace] = (),
         collapse_drift: ArrayLike | None = None,
+        stands_on: ArrayLike | None = None,
     ) -> None:
         given: dict[str, ArrayLike] = {
             "floor_mass": floor_mass,
@@ -197,7 +204,9 @@ class Building:
         fields = {name: per_storey(name, array, size) for name, array in arrays.items()}
         fields.setdefault("storey_stiffness", stiffness)
         refuse_impossible(fields)
-        fields |= device_fields(devices, fields)
+        standing = checked_stands_on(stands_on, size)
+        object.__setattr__(self, "stands_on", standing)
+        fields |= device_fields(devices, fields, standing)
         object.__setattr__(self, "links", checked_links(links, size))
         chosen = ModalDamping() if damping is None else damping
         if not isinstance(chosen, Damping):
@@ -348,6 +357,7 @@ class Building:
         brace_mass: ArrayLike = 0.0,
         kinetic_slip_force: ArrayLike | None = None,
         brace_damping: ArrayLike | None = None,
+        stands_on: ArrayLike | None = None,
         **devices: Unpack[DeviceParameters],
     ) -> Building:
         """Make a building from the frame's matrices, as another program condensed them.
@@ -363,6 +373,8 @@ class Building:
             Damping of the bare frame.
         brace_stiffness, slip_force, brace_mass, kinetic_slip_force, brace_damping
             As for `Building`: brace i joins floor i to the floor below.
+        stands_on
+            The floor below each storey, as for `Building`; by default the one before.
 
         Returns
         -------
@@ -383,6 +395,7 @@ class Building:
             kinetic_slip_force,
             chosen,
             brace_damping,
+            stands_on=stands_on,
             **devices,
         )
 
@@ -411,7 +424,7 @@ class Building:
         """Stiffness of the bare frame, shape (N, N), N/m."""
         if self.storey_stiffness.ndim == 2:
             return self.storey_stiffness
-        return read_only(shear_matrix(self.storey_stiffness))
+        return read_only(self.spring_matrix(self.storey_stiffness))
 
     @cached_property
     def damping_matrix(self) -> Array:
@@ -427,7 +440,8 @@ class Building:
     def braced_periods(self) -> Array:
         """Natural periods with every damper stuck, shape (N,), s, longest first."""
         return _periods(
-            self.floor_mass + self.brace_mass, self.stiffness_matrix + shear_matrix(self.brace_stiffness)
+            self.floor_mass + self.brace_mass,
+            self.stiffness_matrix + self.spring_matrix(self.brace_stiffness),
         )
 
     @property
@@ -448,9 +462,10 @@ class Building:
 
     @property
     def has_devices(self) -> bool:
-        """Whether anything beside the frame, its braces and their friction is in it."""
+        """Whether anything beside one frame, its braces and their friction is in it."""
         return bool(
             self.links
+            or not self.is_one_frame
             or (self.yield_shear < np.inf).any()
             or (self.gravity_load > 0.0).any()
             or (self.slot_length < np.inf).any()
@@ -458,21 +473,44 @@ class Building:
             or (self.collapse_drift < np.inf).any()
         )
 
+    @property
+    def link_names(self) -> tuple[str, ...]:
+        """Names of the links, in their order."""
+        return tuple(link.name or f"link {number}" for number, link in enumerate(self.links, start=1))
+
+    @property
+    def is_one_frame(self) -> bool:
+        """Whether every storey stands on the one counted before it."""
+        return is_chain(self.stands_on)
+
+    def drifts(self, displacement: Array) -> Array:
+        """Return the drift of each storey from displacements of the floors, both (..., N), m."""
+        return drifts(displacement, self.stands_on)
+
+    def spring_matrix(self, springs: Array) -> Array:
+        """Return the matrix (N, N) of springs or dashpots (N,), one a storey."""
+        return shear_matrix(springs) if self.is_one_frame else spring_matrix(springs, self.stands_on)
+
+    @property
+    def floor_height(self) -> Array:
+        """Height of each floor above the ground, shape (N,), m; not a number where one below is unknown."""
+        return elevations(self.storey_height, self.stands_on)
+
     @cached_property
     def device_frame(self) -> DeviceFrame:
         """The numbers of the building as the kernel for devices takes them."""
-        return device_frame(self, self._springs, Linkage.of(self.damping_matrix))
+        return device_frame(self, self._springs, Linkage.of(self.damping_matrix, self.stands_on))
 
     @property
     def _springs(self) -> Linkage:
         if self.storey_stiffness.ndim == 1:  # as given, untouched by the way through the matrix
             return Linkage(self.storey_stiffness, np.zeros(self.n_storeys), np.zeros((0, 0)))
-        return Linkage.of(self.stiffness_matrix)
+        return Linkage.of(self.stiffness_matrix, self.stands_on)
 
     @cached_property
     def frame(self) -> Frame:
         """The numbers of the building as the kernel for N storeys takes them, without its devices."""
-        stiffness = self._springs
+        stiffness = self._springs if self.is_one_frame else Linkage.of(self.stiffness_matrix)
         damping = Linkage.of(self.damping_matrix)
         rows = (
             self.floor_mass,
@@ -510,6 +548,8 @@ class Building:
             for name, absent in NONE.items()
             if not np.array_equal(getattr(self, name), np.full(self.n_storeys, absent), equal_nan=True)
         }
+        if not self.is_one_frame:
+            there["stands_on"] = self.stands_on
         return there | ({"links": [asdict(link) for link in self.links]} if self.links else {})
 
     def _identity(self) -> tuple[Any, ...]:
@@ -521,6 +561,7 @@ class Building:
             self.slip_force,
             self.kinetic_slip_force,
             self.brace_damping,
+            self.stands_on,
             *(getattr(self, name) for name in NONE),
         )
         return (self.damping, self.links, *(array.tobytes() for array in arrays))

@@ -60,7 +60,7 @@ DEVICES = (
 )
 
 
-class _Link(BaseModel):
+class LinkTable(BaseModel):
     """What a table ``[[links]]`` may hold: the parameters of `Link`."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
@@ -78,8 +78,12 @@ class _Link(BaseModel):
     friction_stiffness: NotNegative | None = None
     name: str | None = None
 
+    def made(self) -> Link:
+        """Return the link."""
+        return Link(**self.model_dump())
 
-class _TensionBrace(BaseModel):
+
+class TensionBraceTable(BaseModel):
     """What a table ``[[tension_braces]]`` may hold: the parameters of `TensionBrace`."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
@@ -91,6 +95,10 @@ class _TensionBrace(BaseModel):
     slack: NotNegative = 0.0
     direction: int = 1
     name: str | None = None
+
+    def made(self) -> TensionBrace:
+        """Return the brace."""
+        return TensionBrace(**self.model_dump(exclude_none=True))
 
 
 class _Rayleigh(BaseModel):
@@ -130,8 +138,9 @@ class _File(BaseModel):
     slot_stiffness: list[NotNegative] | NotNegative | None = None
     recentring_stiffness: list[NotNegative] | NotNegative | None = None
     collapse_drift: list[PositiveOrInf] | PositiveOrInf | None = None
-    links: list[_Link] = []
-    tension_braces: list[_TensionBrace] = []
+    stands_on: list[Annotated[int, Field(ge=0)]] | None = None
+    links: list[LinkTable] = []
+    tension_braces: list[TensionBraceTable] = []
 
     @model_validator(mode="after")
     def _told_once(self) -> _File:
@@ -143,6 +152,8 @@ class _File(BaseModel):
             raise ValueError(
                 "give either storey_stiffness and brace_stiffness, or bare_period and braced_period"
             )
+        if self.stands_on is not None and self.bare_period is not None:
+            raise ValueError("stands_on needs storey_stiffness: two periods fix one frame alone")
         if sum(getattr(self, name) is not None for name in DAMPING) > 1:
             raise ValueError(f"give one of {', '.join(DAMPING)}")
         if self.kinetic_slip_force is not None:
@@ -164,9 +175,9 @@ def read_building(path: str | Path, *, design: bool = False) -> Building:
     unless given; one of `damping_ratio` in every mode of the bare frame, or one a mode, 0.05 unless given,
     `rayleigh_damping`, a table of ratio, period_1 and period_2, and `damping_matrix`, N s/m. What `Building`
     knows of devices goes by the same names (`storey_height`, `yield_shear`, `hardening_ratio`,
-    `gravity_load`, `slot_length`, `slot_stiffness`, `recentring_stiffness`, `collapse_drift`), and each link
-    is a table ``[[links]]`` with the parameters of `Link`, or ``[[tension_braces]]`` with those of
-    `TensionBrace`.
+    `gravity_load`, `slot_length`, `slot_stiffness`, `recentring_stiffness`, `collapse_drift`, and `stands_on`
+    for frames beside each other), and each link is a table ``[[links]]`` with the parameters of `Link`, or
+    ``[[tension_braces]]`` with those of `TensionBrace`.
 
     Parameters
     ----------
@@ -247,8 +258,8 @@ def _building(file: _File) -> Building:
     options: dict[str, Any] = {
         **{name: getattr(file, name) for name in DEVICES},
         "links": [
-            *(Link(**link.model_dump()) for link in file.links),
-            *(TensionBrace(**brace.model_dump(exclude_none=True)) for brace in file.tension_braces),
+            *(link.made() for link in file.links),
+            *(brace.made() for brace in file.tension_braces),
         ],
         "slip_force": force,
         "kinetic_slip_force": kinetic,
@@ -264,6 +275,7 @@ def _building(file: _File) -> Building:
         file.storey_stiffness,  # type: ignore[arg-type]
         np.where(there, _each("brace_mass", file.brace_mass, size), 0.0),
         braces,
+        stands_on=file.stands_on,
         **options,
     )
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fdspec.errors import InvalidInput
-from fdspec.model.building import Building, shear_matrix
+from fdspec.model.building import Building
 from fdspec.model.damping import natural_modes
 from fdspec.model.grid import FloatArray, axis
 
@@ -129,7 +129,7 @@ class BuildingGrid:
         for b, building in enumerate(self.buildings):
             mass = building.floor_mass + building.brace_mass
             for k, brace in enumerate(self.brace_stiffness[b]):
-                omega, _ = natural_modes(mass, building.stiffness_matrix + shear_matrix(brace))
+                omega, _ = natural_modes(mass, building.stiffness_matrix + building.spring_matrix(brace))
                 periods[b, k] = 2.0 * np.pi / omega[0]
         return periods
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from fdspec.errors import InvalidInput
 from fdspec.model.building_check import Array, numbers, per_storey, read_only
 from fdspec.model.link import Link, TensionBrace
-from fdspec.model.springs import shear_matrix
+from fdspec.model.standing import IntArray, spring_matrix
 
 NONE = {
     "storey_height": np.nan,
@@ -36,10 +36,13 @@ _WANTED = {
 }
 
 
-def device_fields(given: Mapping[str, ArrayLike | None], fields: Mapping[str, Array]) -> dict[str, Array]:
+def device_fields(
+    given: Mapping[str, ArrayLike | None], fields: Mapping[str, Array], stands_on: IntArray
+) -> dict[str, Array]:
     """Return one number a storey of each device parameter, or say which cannot be used.
 
-    given: what the caller handed over, by name.  fields: the building's other numbers, checked.
+    given: what the caller handed over, by name.  fields: the building's other numbers, checked;
+    stands_on: the floor below each storey.
     """
     size = fields["floor_mass"].size
     arrays = {name: numbers(name, NONE[name] if value is None else value) for name, value in given.items()}
@@ -60,7 +63,7 @@ def device_fields(given: Mapping[str, ArrayLike | None], fields: Mapping[str, Ar
         # Not a number throughout is what an unknown height is kept as; `dataclasses.replace` hands it back.
         if given[name] is not None and not (np.isnan(NONE[name]) and np.isnan(devices[name]).all()):
             _demand(name, devices[name], right, _WANTED[name])
-    _fit_together(devices, fields)
+    _fit_together(devices, fields, stands_on)
     return devices
 
 
@@ -71,7 +74,7 @@ def _demand(name: str, array: Array, right: NDArray[np.bool_], wanted: str) -> N
         raise InvalidInput(f"{name} must be {wanted}, not {float(array[first])!r}{where}")
 
 
-def _fit_together(devices: Mapping[str, Array], fields: Mapping[str, Array]) -> None:
+def _fit_together(devices: Mapping[str, Array], fields: Mapping[str, Array], stands_on: IntArray) -> None:
     _needs(
         devices["slot_length"] < np.inf,
         devices["slot_stiffness"] > 0.0,
@@ -106,7 +109,7 @@ def _fit_together(devices: Mapping[str, Array], fields: Mapping[str, Array]) -> 
             "storey_stiffness",
             lambda i: f"{gravity[i]:g} N/m against {stiffness[i]:g} N/m",
         )
-    elif float(np.linalg.eigvalsh(stiffness - shear_matrix(gravity))[0]) <= 0.0:
+    elif float(np.linalg.eigvalsh(stiffness - spring_matrix(gravity, stands_on))[0]) <= 0.0:
         raise InvalidInput(
             "gravity_load is beyond elastic stability: stiffness less gravity_load / storey_height between "
             "the floors must be positive definite"

@@ -11,6 +11,7 @@ from fdspec.kernels.devices import layout as row
 from fdspec.model.building_check import Array, read_only
 from fdspec.model.link import Link, TensionBrace
 from fdspec.model.springs import Linkage
+from fdspec.model.standing import carried
 
 IntArray = NDArray[np.int64]
 
@@ -32,6 +33,8 @@ class DeviceFrame(NamedTuple):
     places: IntArray
     links: Array
     drift_limit: Array
+    below: IntArray
+    carried: NDArray[np.bool_]
     dampers: IntArray
     """(N,) place of each storey's damper among the links, -1 where it has none."""
     columns: IntArray
@@ -74,6 +77,8 @@ class _Storeys(Protocol):
     @property
     def collapse_drift(self) -> Array: ...
     @property
+    def stands_on(self) -> IntArray: ...
+    @property
     def links(self) -> tuple[Link | TensionBrace, ...]: ...
 
 
@@ -84,8 +89,8 @@ def device_frame(building: _Storeys, stiffness: Linkage, damping: Linkage) -> De
     share = np.where(yields, building.hardening_ratio, 1.0)
     with np.errstate(invalid="ignore"):
         gravity = np.nan_to_num(building.gravity_load / building.storey_height)
-    floors = np.arange(1, size + 1)
-    ends = np.stack([np.concatenate([floors, floors]), np.concatenate([floors - 1, np.zeros(size)])])
+    floors, below = np.arange(1, size + 1), building.stands_on
+    ends = np.stack([np.concatenate([floors, floors]), np.concatenate([below, np.zeros(size)])])
     nothing = np.zeros(size)
     springs = np.stack(
         [
@@ -103,7 +108,7 @@ def device_frame(building: _Storeys, stiffness: Linkage, damping: Linkage) -> De
         if building.brace_stiffness[i] > 0.0:
             dampers[i] = len(places)
             mass, dashpot = float(building.brace_mass[i]), float(building.brace_damping[i])
-            places.append([i + 1, i, _kind(mass, dashpot), 0])
+            places.append([i + 1, int(below[i]), _kind(mass, dashpot), 0])
             links.append(
                 {
                     row.MASS: mass,
@@ -118,7 +123,7 @@ def device_frame(building: _Storeys, stiffness: Linkage, damping: Linkage) -> De
             )
     for i in map(int, np.flatnonzero(yields)):
         columns[i] = len(places)
-        places.append([i + 1, i, row.WITHOUT_MASS, 0])
+        places.append([i + 1, int(below[i]), row.WITHOUT_MASS, 0])
         force = (1.0 - share[i]) * building.yield_shear[i]
         links.append(
             {
@@ -149,6 +154,8 @@ def device_frame(building: _Storeys, stiffness: Linkage, damping: Linkage) -> De
         _places(np.asarray(places, dtype=np.int64).reshape(-1, row.PLACE_ROWS).T),
         read_only(table),
         read_only(_drift_limit(building, gravity, stiffness)),
+        below,
+        carried(below),
         dampers,
         columns,
         others,

@@ -1,15 +1,18 @@
 """The grid of a sweep: three axes and the scalars every point shares, validated once."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fdspec.errors import InvalidInput
+from fdspec.model.device_check import checked_links
+from fdspec.model.link import Link, TensionBrace
 
 FloatArray = NDArray[np.float64]
+Links = tuple[Link | TensionBrace, ...]
 
 STUDY_STIFFNESS_RATIO: Final = (0.5, 1.0, 2.0, 4.0, 6.0, 8.0, 10.0)
 STUDY_PRETENSION: Final = tuple(10e3 + 100e3 * k for k in range(11))
@@ -42,8 +45,10 @@ class Grid:
         Newtons on the sliding surface for each newton of `pretension`: 2 n_b where `pretension` is the force
         of one of n_b bolts that clamp two faces.
     storey_height, yield_shear, hardening_ratio, gravity_load, slot_length, slot_stiffness, \
-    recentring_stiffness : float
+    recentring_stiffness, collapse_drift : float
         Devices of all frames alike, as for `fdspec.Building`.
+    links : sequence of Link or TensionBrace
+        Between the floor, 1, and the ground, 0, of all frames alike.
     intensity : array_like, shape (n_i,), optional
         Factors on the ground motions; without them the cube has no such axis.
 
@@ -78,6 +83,8 @@ class Grid:
     slot_length: float | None = None
     slot_stiffness: float | None = None
     recentring_stiffness: float | None = None
+    collapse_drift: float | None = None
+    links: tuple[Link | TensionBrace, ...] = ()
     intensity: FloatArray | None = None
 
     def __post_init__(self) -> None:
@@ -113,7 +120,7 @@ class Grid:
     @property
     def devices(self) -> dict[str, Any]:
         """The device parameters that are given, by name; empty for frames without devices."""
-        given = {name: getattr(self, name) for name in DEVICE_FIELDS if getattr(self, name) is not None}
+        given = {name: getattr(self, name) for name in DEVICE_FIELDS if getattr(self, name) not in (None, ())}
         acting = [
             name for name in given if name not in ("hardening_ratio", "storey_height", "slot_stiffness")
         ]
@@ -128,7 +135,8 @@ class Grid:
             absent.discard("storey_height")
         if self.intensity is None:
             absent.add("intensity")
-        return {name: getattr(self, name) for name in GRID_FIELDS if name not in absent}
+        told = {name: getattr(self, name) for name in GRID_FIELDS if name not in absent}
+        return told | ({"links": [asdict(link) for link in self.links]} if self.links else {})
 
     @property
     def shape(self) -> tuple[int, int, int]:
@@ -159,12 +167,14 @@ DEVICE_FIELDS: Final = (
     "slot_length",
     "slot_stiffness",
     "recentring_stiffness",
+    "collapse_drift",
+    "links",
 )
 
 GRID_FIELDS: Final = tuple(field.name for field in fields(Grid))
 
 
-def checked(name: str, value: object) -> FloatArray | float | None:
+def checked(name: str, value: object) -> FloatArray | float | Links | None:
     """Return the value of a field of `Grid` as it is kept, or raise ValueError saying what is wrong."""
     return _CHECKS[name](value)
 
@@ -278,7 +288,7 @@ def _less_than_one(value: object) -> float:
     return float(given)
 
 
-_CHECKS: Final[Mapping[str, Callable[[object], FloatArray | float | None]]] = {
+_CHECKS: Final[Mapping[str, Callable[[object], FloatArray | float | Links | None]]] = {
     "stiffness_ratio": axis,
     "pretension": lambda value: axis(value, zero=True, infinite=True),
     "period": axis,
@@ -296,5 +306,7 @@ _CHECKS: Final[Mapping[str, Callable[[object], FloatArray | float | None]]] = {
     "slot_length": lambda value: _optional_number(value, zero=False, infinite=True),
     "slot_stiffness": _optional_number,
     "recentring_stiffness": _optional_number,
+    "collapse_drift": lambda value: _optional_number(value, zero=False, infinite=True),
+    "links": lambda value: checked_links(value, 1),
     "intensity": lambda value: None if value is None else axis(value),
 }

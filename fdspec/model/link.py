@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 import operator
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from fdspec.errors import InvalidInput
 from fdspec.model.number_check import finite_number, not_negative_number, positive_number
@@ -195,6 +197,11 @@ class TensionBrace:
         }
         for key, value in fields.items():
             object.__setattr__(self, key, value)
+
+
+def link_of(parameters: Mapping[str, Any]) -> Link | TensionBrace:
+    """Return the link of these parameters, by name: a `TensionBrace` where its direction is among them."""
+    return TensionBrace(**parameters) if "direction" in parameters else Link(**parameters)
 
 
 def _ends(upper: object, lower: object) -> tuple[int, int]:

@@ -7,6 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fdspec.model.standing import IntArray, is_chain, spring_matrix
+
 Array = NDArray[np.float64]
 
 
@@ -29,14 +31,28 @@ class Linkage(NamedTuple):
     dense: Array
 
     @classmethod
-    def of(cls, matrix: Array) -> Linkage:
-        """Take a matrix (N, N) apart."""
+    def of(cls, matrix: Array, stands_on: IntArray | None = None) -> Linkage:
+        """Take a matrix (N, N) apart; stands_on: the floor below each storey, by default the one before."""
         size = matrix.shape[0]
+        if stands_on is not None and not is_chain(stands_on):
+            return cls._of_frames(matrix, stands_on)
         if np.triu(matrix, 2).any():
             return cls(np.zeros(size), np.zeros(size), matrix)
         storey = np.append(0.0, -np.diag(matrix, -1))
         ground = np.diag(matrix) - storey - np.append(storey[1:], 0.0)
         storey[0], ground[0] = ground[0], 0.0
+        return cls(storey, ground, np.zeros((0, 0)))
+
+    @classmethod
+    def _of_frames(cls, matrix: Array, stands_on: IntArray) -> Linkage:
+        size = matrix.shape[0]
+        storey = np.zeros(size)
+        on_floors = np.flatnonzero(stands_on > 0)
+        storey[on_floors] = -matrix[on_floors, stands_on[on_floors] - 1]
+        ground = np.diag(matrix - spring_matrix(storey, stands_on)).copy()
+        storey[stands_on == 0], ground[stands_on == 0] = ground[stands_on == 0], 0.0
+        if (np.diag(ground) + spring_matrix(storey, stands_on) - matrix)[~np.eye(size, dtype=bool)].any():
+            return cls(np.zeros(size), np.zeros(size), matrix)
         return cls(storey, ground, np.zeros((0, 0)))
 
 

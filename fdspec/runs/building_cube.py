@@ -13,7 +13,14 @@ from fdspec.model.building_grid import BuildingGrid
 from fdspec.model.motion import GroundMotion
 from fdspec.runs.after import NOTHING, After
 from fdspec.scheduling.task import Task
-from fdspec.variables import BUILDING_CUBE, BUILDING_DIMS, INTENSITY_BUILDING_CUBE, Registry, device_variables
+from fdspec.variables import (
+    BUILDING_CUBE,
+    BUILDING_DIMS,
+    INTENSITY_BUILDING_CUBE,
+    Registry,
+    device_variables,
+    link_variables,
+)
 
 FloatArray = NDArray[np.float64]
 
@@ -23,8 +30,10 @@ CELLS: Final = BUILDING_DIMS[1:]
 LIMITS: Final = ("elastic_acceleration", "braced_acceleration")
 DEMANDS: Final = tuple(v.name for v in device_variables(()))
 """Outputs of sweeps with devices alone."""
+LINKS: Final = tuple(v.name for v in link_variables(()))
+"""Outputs of sweeps whose buildings have the same links."""
 RESPONSES: Final = tuple(
-    v.name for v in BUILDING_CUBE.values() if v.dims[:4] == BUILDING_DIMS and v.name not in DEMANDS
+    v.name for v in BUILDING_CUBE.values() if v.dims[:4] == BUILDING_DIMS and v.name not in (*DEMANDS, *LINKS)
 )
 OUTPUTS: Final = (*(name for name in RESPONSES if not BUILDING_CUBE[name].on_request), *LIMITS)
 ON_REQUEST: Final = tuple(name for name in RESPONSES if BUILDING_CUBE[name].on_request)
@@ -50,7 +59,14 @@ def demands_of(grid: BuildingGrid) -> tuple[str, ...]:
     known = all(not np.isnan(building.storey_height).any() for building in grid.buildings)
     if not with_devices(grid):
         return ("peak_drift_ratio",) if known else ()
-    return tuple(name for name in DEMANDS if known or name != "peak_drift_ratio")
+    of_storeys = tuple(name for name in DEMANDS if known or name != "peak_drift_ratio")
+    return (*of_storeys, *(LINKS if links_of(grid) else ()))
+
+
+def links_of(grid: BuildingGrid) -> tuple[str, ...]:
+    """Return the names of the links; none where buildings differ in them: there is no axis for all then."""
+    names = {building.link_names for building in grid.buildings}
+    return names.pop() if len(names) == 1 else ()
 
 
 def with_devices(grid: BuildingGrid) -> bool:
@@ -72,7 +88,17 @@ def rows_of(grid: BuildingGrid) -> tuple[str, ...]:
     """Return the names of what each storey has of its own."""
     from fdspec.kernels.frame.results import STOREY_RESULTS
 
-    return (*STOREY_RESULTS, *(demands_of(grid) if with_devices(grid) else ()))
+    of_devices = [name for name in demands_of(grid) if name not in LINKS] if with_devices(grid) else ()
+    # Where several frames stand on the ground, the shear there is none of a storey's.
+    on_ground = () if all(building.is_one_frame for building in grid.buildings) else ("peak_base_shear",)
+    return (*STOREY_RESULTS, *of_devices, *on_ground)
+
+
+def of_all_length(grid: BuildingGrid) -> int:
+    """Return how many numbers a history has beside those of storeys: TOTALS, then LINKS link by link."""
+    from fdspec.kernels.frame.results import TOTALS
+
+    return len(TOTALS) + len(LINKS) * len(links_of(grid))
 
 
 def parameters_of(grid: BuildingGrid, wanted: Sequence[str], certify: bool) -> dict[str, object]:
@@ -99,16 +125,25 @@ def axes_of(grid: BuildingGrid) -> dict[str, object]:
         "storey": np.arange(1, grid.n_storeys + 1),
         "slip_force": grid.slip_force,
         "kinetic_slip_force": grid.kinetic_slip_force,
+        **_standing(grid),
+        **({"link": list(links_of(grid))} if links_of(grid) else {}),
         "brace_stiffness": grid.brace_stiffness,
         "bare_period": [float(building.bare_periods[0]) for building in grid.buildings],
         "braced_period": grid.braced_period,
     }
 
 
+def _standing(grid: BuildingGrid) -> dict[str, object]:
+    """Return the floors that storeys stand on, where any building has frames beside each other."""
+    if all(building.is_one_frame for building in grid.buildings):
+        return {}
+    return {"stands_on": [building.stands_on for building in grid.buildings]}
+
+
 def bytes_of(motions: Sequence[GroundMotion], grid: BuildingGrid, outputs: Iterable[str]) -> dict[str, int]:
     """Bytes of each variable of the cube."""
     lengths = dict(zip(BUILDING_DIMS, (len(motions), *grid.shape), strict=True))
-    lengths |= {"storey": grid.n_storeys, "intensity": grid.intensities.size}
+    lengths |= {"storey": grid.n_storeys, "intensity": grid.intensities.size, "link": len(links_of(grid))}
     registry = registry_for(grid)
     return {
         name: math.prod(lengths[dim] for dim in registry[name].dims) * np.dtype(registry[name].dtype).itemsize
@@ -138,17 +173,28 @@ def variables_of(
     n_i = grid.intensities.size
     histories = 1 + max(int(task.items.max()) for task in tasks)
     by_storey = np.empty((len(rows), n_r, histories, grid.n_storeys))
-    totals = np.empty((len(TOTALS), n_r, histories))
+    # The tasks' grid may be a whole of which this one is a part, so how many links it has is told by them.
+    length = parts[0][1].shape[1]
+    n_links = (length - len(TOTALS)) // len(LINKS)
+    totals = np.empty((length, n_r, histories))
     for (r, items), (of_storeys, of_all) in zip(tasks, parts, strict=True):
         by_storey[:, r, items] = of_storeys.transpose(1, 0, 2)
         totals[:, r, items] = of_all.T
     levels = (n_r, n_i, histories // n_i)
     results = dict(zip(rows, by_storey.reshape(len(rows), *levels, grid.n_storeys), strict=True))
-    results |= dict(zip(TOTALS, totals.reshape(len(TOTALS), *levels), strict=True))
-    results["peak_base_shear"] = results["peak_storey_shear"][..., 0]
-    results["residual_drift"] = np.diff(results["residual_displacement"], prepend=0.0)
+    of_histories, of_links = np.split(totals.reshape(-1, *levels), [len(TOTALS)])
+    results |= dict(zip(TOTALS, of_histories, strict=True))
+    if n_links:
+        each = of_links.reshape(len(LINKS), n_links, *levels)
+        results |= dict(zip(LINKS, np.moveaxis(each, 1, -1), strict=True))
+    results["peak_base_shear"] = results.get("peak_base_shear", results["peak_storey_shear"])[..., 0]
+    n_b, n_k, n_s = grid.shape
+    residual = results["residual_displacement"][:, :, :cells]
+    of_buildings = residual.reshape(n_r, n_i, n_b, n_k * n_s, grid.n_storeys)
+    results["residual_drift"] = np.stack(
+        [building.drifts(of_buildings[:, :, b]) for b, building in enumerate(grid.buildings)], axis=2
+    ).reshape(residual.shape)
     if "peak_drift_ratio" in wanted and "peak_drift_ratio" not in results:
-        n_b, n_k, n_s = grid.shape
         height = np.stack([building.storey_height for building in grid.buildings])
         drift = results["peak_drift"][:, :, :cells].reshape(n_r, n_i, n_b, n_k * n_s, grid.n_storeys)
         results["peak_drift_ratio"] = (drift / height[:, np.newaxis]).reshape(n_r, n_i, cells, -1)
@@ -157,9 +203,8 @@ def variables_of(
         "elastic_acceleration": acceleration[:, :, braced:bare],
         "braced_acceleration": acceleration[:, :, cells:braced],
     }
-    n_b, n_k, n_s = grid.shape
     lengths = {"record": n_r, "building": n_b, "stiffness_scale": n_k, "slip_scale": n_s}
-    lengths |= {"storey": grid.n_storeys, "intensity": n_i}
+    lengths |= {"storey": grid.n_storeys, "intensity": n_i, "link": n_links}
     registry = registry_for(grid)
     variables: dict[str, NDArray[np.generic]] = {}
     for name in wanted:

@@ -15,7 +15,7 @@ from fdspec.model.building import Building, Frame
 from fdspec.model.building_grid import BuildingGrid
 from fdspec.model.motion import GroundMotion
 from fdspec.runs.after import NOTHING, After
-from fdspec.runs.building_cube import ends, rows_of, with_devices
+from fdspec.runs.building_cube import LINKS, ends, links_of, of_all_length, rows_of, with_devices
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -47,7 +47,7 @@ def run_histories(
     """
     levels, of_level = np.divmod(histories, each)
     by_storey = np.empty((histories.size, len(rows_of(grid)), grid.n_storeys))
-    totals = np.empty((histories.size, len(_totals())))
+    totals = np.empty((histories.size, of_all_length(grid)))
     for level in np.unique(levels).tolist():
         at, s = levels == level, float(grid.intensities[level])
         shaken = motion if s == 1.0 else motion.times(s)
@@ -66,7 +66,10 @@ def _run_level(
     """Integrate the same, all at the intensity of this motion."""
     if alone or with_devices(grid):
         results = [_run_one(grid, certify, int(history), motion, after, alone) for history in histories]
-        return np.stack([rows for rows, _ in results]), np.stack([whole for _, whole in results])
+        of_all = np.zeros((histories.size, of_all_length(grid)))
+        for row, (_, whole) in zip(of_all, results, strict=True):
+            row[: whole.size] = whole  # an elastic limit has nothing of links
+        return np.stack([rows for rows, _ in results]), of_all
     from fdspec.engines.frames import peaks_of_frames
     from fdspec.kernels.frame.results import STOREY_RESULTS, TOTALS
 
@@ -84,13 +87,13 @@ def _run_level(
 def _run_one(
     grid: BuildingGrid, certify: bool, history: int, motion: GroundMotion, after: After, alone: bool
 ) -> tuple[FloatArray, FloatArray]:
-    """Integrate one history by the engine for its building: rows of `rows_of` (rows, N), and TOTALS.
+    """Integrate one history by its building's engine: rows of `rows_of` (rows, N); TOTALS and links.
 
     The limits that ride along are those of the elastic frame. Beside a building with devices, one without
     is integrated by both engines: its peaks are those of the engine of frames, to the bit.
     """
     from fdspec.kernels.frame.results import DEMANDS as FIRST_DEMAND
-    from fdspec.kernels.frame.results import STOREY_RESULTS, TOTALS
+    from fdspec.kernels.frame.results import RESULT, STOREY_RESULTS, TOTALS
 
     cell = history < ends(grid)[0]
     free_steps = after.free_steps(motion)
@@ -103,15 +106,19 @@ def _run_one(
         by_storey, totals = by_frames(frame_of(grid, history))
         missing = np.zeros((len(rows_of(grid)) - len(STOREY_RESULTS), grid.n_storeys))
         return np.concatenate([by_storey, missing]), totals
-    from fdspec.engines.devices import peaks_of as peaks_with_devices
+    from fdspec.engines.devices import results_of as results_with_devices
 
     building = building_of(grid, history)
-    storeys, whole = peaks_with_devices(building, motion, free_steps)
+    storeys, whole, links = results_with_devices(building, motion, free_steps)
     table = np.stack([storeys[name] for name in rows_of(grid)])
     totals = np.array([whole[name] for name in TOTALS])
     if not building.has_devices:
         by_storey, totals = by_frames(frame_of(grid, history))
         table[:FIRST_DEMAND] = by_storey[:FIRST_DEMAND]
+        if "peak_base_shear" in rows_of(grid):
+            table[rows_of(grid).index("peak_base_shear")] = by_storey[RESULT.peak_storey_shear][0]
+    if links_of(grid):
+        totals = np.concatenate([totals, *(links[name] for name in LINKS)])
     return table, totals
 
 
@@ -170,7 +177,23 @@ def frame_of(grid: BuildingGrid, history: int) -> Frame:
     else:
         never = np.where(properties[row.BRACE_STIFFNESS] > 0.0, np.inf, 0.0)
         properties[[row.SLIP_FORCE, row.KINETIC_SLIP_FORCE]] = never
-    return given._replace(properties=properties)
+    given = given._replace(properties=properties)
+    return given if grid.buildings[b].is_one_frame else _with_braces_in(grid.buildings[b], given)
+
+
+def _with_braces_in(building: Building, given: Frame) -> Frame:
+    """Return frames beside each other, whose dampers never slip, as one whose braces are part of it."""
+    from fdspec.kernels.frame import model as row
+
+    properties = given.properties.copy()
+    properties[row.FLOOR_MASS] += properties[row.BRACE_MASS]
+    braces = (row.BRACE_MASS, row.BRACE_STIFFNESS, row.BRACE_DAMPING, row.SLIP_FORCE, row.KINETIC_SLIP_FORCE)
+    properties[list(braces)] = 0.0
+    stiffness = building.stiffness_matrix + building.spring_matrix(given.properties[row.BRACE_STIFFNESS])
+    damping = building.damping_matrix + building.spring_matrix(given.properties[row.BRACE_DAMPING])
+    springs = (row.STOREY_STIFFNESS, row.GROUND_STIFFNESS, row.STOREY_DAMPING, row.GROUND_DAMPING)
+    properties[list(springs)] = 0.0
+    return Frame(properties, stiffness, damping)
 
 
 def building_of(grid: BuildingGrid, history: int) -> Building:
@@ -184,9 +207,3 @@ def building_of(grid: BuildingGrid, history: int) -> Building:
         slip_force=grid.slip_force[b, s],
         kinetic_slip_force=grid.kinetic_slip_force[b, s],
     )
-
-
-def _totals() -> tuple[str, ...]:
-    from fdspec.kernels.frame.results import TOTALS
-
-    return TOTALS

@@ -28,27 +28,17 @@ from fdspec.model.motion import GroundMotion
 from fdspec.model.toml_lines import parsed
 from fdspec.runs.after import NOTHING, After
 from fdspec.runs.building_cube import DEMANDS, ON_REQUEST, OUTPUTS
-from fdspec.runs.study import (
+from fdspec.runs.study import Study, free_vibration_field, known_output, mistake_of, placed, text_of
+from fdspec.runs.study_records import (
     STUDY_RECORDS,
     RecordFile,
-    Study,
-    axis_text,
-    bool_text,
     distinct,
-    even_axis,
     find_records,
-    free_vibration_field,
-    known_output,
     matching,
-    mistake_of,
-    placed,
     record_field,
-    records_text,
-    string_text,
-    strings_text,
-    text_of,
     unknown_records,
 )
+from fdspec.runs.study_text import axis_text, bool_text, even_axis, records_text, string_text, strings_text
 
 BUILDINGS: Final = "buildings"
 """The field that makes a study one of buildings."""

@@ -44,8 +44,10 @@ def history_of(
         variables["end_state"] = ("state", trajectory.end)
     if isinstance(trajectory, TrajectoryWithDevices):
         variables |= _of_devices(building, trajectory.devices)
+        if not building.is_one_frame:
+            coords["stands_on"] = ("storey", building.stands_on)
         if building.links:
-            coords["link"] = [link.name or f"link {i}" for i, link in enumerate(building.links, start=1)]
+            coords["link"] = list(building.link_names)
     dataset = xr.Dataset(variables, coords=coords)
     dataset.attrs = provenance(
         "Response history of a building with friction dampers",
@@ -65,8 +67,8 @@ def history_of(
 
 def _over_time(building: Building, trajectory: Trajectory) -> dict[str, Any]:
     """Return the variables over time."""
-    below = np.zeros_like(trajectory.displacement)
-    below[:, 1:] = trajectory.displacement[:, :-1]
+    ground = np.zeros_like(trajectory.displacement[:, :1])
+    below = np.concatenate([ground, trajectory.displacement], axis=1)[:, building.stands_on]
     drift = trajectory.displacement - below
     brace_drift = trajectory.brace_displacement - below
     kinetic = 0.5 * (
@@ -121,7 +123,7 @@ def _at_end(building: Building, trajectory: Trajectory) -> dict[str, Any]:
         "residual_slip": ("storey", trajectory.residual_slip),
         "peak_brace_force": ("storey", trajectory.peak_brace_force),
         "peak_column_shear": ("storey", trajectory.peak_column_shear),
-        "residual_drift": ("storey", np.diff(residual, prepend=0.0)),
+        "residual_drift": ("storey", building.drifts(residual)),
         "storey_transitions": (
             "storey",
             np.bincount(trajectory.transition_storey, minlength=building.n_storeys).astype(np.int64),

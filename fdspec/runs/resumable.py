@@ -18,7 +18,7 @@ from fdspec.errors import DiskError, StoreError
 from fdspec.locks import locked
 from fdspec.model.motion import GroundMotion
 from fdspec.scheduling.task import Task, cores
-from fdspec.store import chunks
+from fdspec.store import chunks, description
 from fdspec.store import open as open_cube
 from fdspec.store.blocks import Blocks, cut
 from fdspec.store.replacing import check_writable
@@ -106,8 +106,8 @@ def _sweep_into(
 ) -> xr.Dataset:
     identity = identity_of(frame)
     if restart and path.exists():
-        if not chunks.is_ours(path):
-            chunks.described(path)  # what is not fdspec's own is refused
+        if not description.is_ours(path):
+            description.described(path)  # what is not fdspec's own is refused
         chunks.remove(path)
     if path.exists():
         blocks = _agreed(path, identity)
@@ -200,7 +200,7 @@ def _other_buildings(there: Mapping[str, Any], here: Mapping[str, Any]) -> list[
 
 
 def _status(variables: Sequence[Variable]) -> Variable:
-    return next(variable for variable in variables if variable.name == chunks.STATUS)
+    return next(variable for variable in variables if variable.name == description.STATUS)
 
 
 def _dims(variables: Sequence[Variable]) -> tuple[str, ...]:
@@ -211,7 +211,7 @@ def _dims(variables: Sequence[Variable]) -> tuple[str, ...]:
 
 def _agreed(path: Path, identity: Mapping[str, Any]) -> Blocks:
     """Return how the store is cut, when its sweep is this one."""
-    blocks, held = chunks.described(path)
+    blocks, held = description.described(path)
     told = differences(held, identity)
     if told:
         raise StoreError(

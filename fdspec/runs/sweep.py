@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from fdspec.errors import InvalidInput
 from fdspec.methods import EXACT, Method, chosen_method
 from fdspec.model.grid import Grid
+from fdspec.model.link import Link, TensionBrace
 from fdspec.model.motion import GroundMotion
 from fdspec.runs.after import NOTHING, After, zero_or_positive
 from fdspec.runs.bounds import SWEEP_HOURS, refuse_large, refuse_long
@@ -83,6 +84,8 @@ def sweep(
     slot_length: float | None = None,
     slot_stiffness: float | None = None,
     recentring_stiffness: float | None = None,
+    collapse_drift: float | None = None,
+    links: Sequence[Link | TensionBrace] = (),
     intensity: ArrayLike | None = None,
     free_vibration: float = 0.0,
     at_rest: bool = False,
@@ -117,11 +120,12 @@ def sweep(
     friction_coefficient, kinetic_friction_coefficient, normal_force_factor : float
         Slip force = friction_coefficient * normal_force_factor * pretension.
     storey_height, yield_shear, hardening_ratio, gravity_load, slot_length, slot_stiffness, \
-    recentring_stiffness : float, optional
+    recentring_stiffness, collapse_drift : float, optional
         Devices of all frames alike, as for `fdspec.Building`: columns that yield, gravity, slots, re-centring
-        springs.  With them each history is integrated by itself, a thousand times slower, the cube has the
-        demands of `fdspec.variables.device_variables` too, and a history may end with the status
-        ``collapsed``.  The limits that ride along stay those of the elastic frame.
+        springs; so are ``links``, a sequence of `Link` and `TensionBrace` between floor 1 and the ground.
+        With them each history is integrated by itself, a thousand times slower, the cube has the demands of
+        `fdspec.variables.device_variables` too, and a history may end with the status ``collapsed``.  The
+        limits that ride along stay those of the elastic frame.
     intensity : array_like, optional
         Factors on the ground motions, positive, strictly increasing: adds the dim ``intensity`` after
         ``record``.  What is told of the records, ``pga`` among it, stays that of factor 1.
@@ -195,6 +199,8 @@ def sweep(
         slot_length=slot_length,
         slot_stiffness=slot_stiffness,
         recentring_stiffness=recentring_stiffness,
+        collapse_drift=collapse_drift,
+        links=links,  # type: ignore[arg-type]
         intensity=intensity,  # type: ignore[arg-type]
     )
     motions = named(motions)

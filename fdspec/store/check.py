@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from fdspec.errors import DamagedError, DiskError, FdspecError
 from fdspec.measures.statuses import meanings_of, status_counts
-from fdspec.store import checksums, chunks, save
+from fdspec.store import checksums, chunks, description, save
 from fdspec.store import open as open_cube
 from fdspec.store.netcdf import checksums_of
 from fdspec.store.origin import is_cube, parameters_of, records_of, untrue
@@ -74,7 +74,7 @@ def check(path: str | os.PathLike[str]) -> Iterator[Finding]:
         registry = _registry(cube)
         whole = (
             _guarded("checksums", _store_checksums, path, cube, registry or CUBE)
-            if chunks.is_store(path)
+            if description.is_store(path)
             else _guarded("checksums", _file_checksums, path, cube)
         )
         if registry is None:
@@ -150,7 +150,7 @@ def _conventions(path: str | os.PathLike[str], cube: xr.Dataset) -> Finding:
         return Finding("CF", None, "not checked: pip install compliance-checker")
     with tempfile.TemporaryDirectory() as folder:
         file, report = Path(path), Path(folder, "report.json")
-        if chunks.is_store(path):
+        if description.is_store(path):
             file = Path(folder, "first.nc")
             save(cube.isel(dict.fromkeys(cube.dims, slice(0, 1))).load(), file)
         options = ["--test", "cf:1.11", "--criteria", "strict", "--format", "json", "--output", str(report)]
@@ -200,7 +200,7 @@ def _axes(cube: xr.Dataset) -> Finding:
 
 
 def _store_checksums(path: str | os.PathLike[str], cube: xr.Dataset, registry: Registry) -> Finding:
-    blocks, _ = chunks.described(path)
+    blocks, _ = description.described(path)
     variables = [registry[str(name)] for name in cube.data_vars if name in registry]
     missing, damaged = 0, []
     for _, state, files in chunks.states(path, blocks, variables):
@@ -212,7 +212,7 @@ def _store_checksums(path: str | os.PathLike[str], cube: xr.Dataset, registry: R
         told = f"{missing} of {len(blocks)} blocks are missing; start the sweep again to go on"
     else:
         told = f"{len(blocks)} blocks of {len(variables)} variables are whole"
-        told += "" if chunks.described_files(path) else _OLDER
+        told += "" if description.described_files(path) else _OLDER
     return Finding("checksums", not damaged and not missing, told)
 
 

@@ -26,7 +26,27 @@ from numpy.typing import NDArray
 from fdspec.errors import BusyError, DamagedError, DiskError, StoreError
 from fdspec.store import layout
 from fdspec.store.blocks import Blocks
-from fdspec.store.checksums import is_whole, of_bytes
+from fdspec.store.checksums import is_whole
+from fdspec.store.description import (
+    BLOCKS,
+    COPY,
+    FILES,
+    FORMAT,
+    IDENTITY,
+    ITSELF,
+    ORDER,
+    ROOT,
+    STATUS,
+    VERSION,
+    attributes_of,
+    blocks_of,
+    checksum_of,
+    damaged_files,
+    described,
+    described_files,
+    is_store,
+    root_checksum,
+)
 from fdspec.store.holding import is_held
 from fdspec.store.refusals import no_resources
 from fdspec.variables import NOT_COMPUTED, Variable
@@ -34,35 +54,8 @@ from fdspec.variables import NOT_COMPUTED, Variable
 if TYPE_CHECKING:
     import xarray as xr
 
-FORMAT: Final = "fdspec_format"
-"""Attribute of the store alone: the version of its layout."""
-
-BLOCKS: Final = "fdspec_blocks"
-"""Attribute of the store alone: its dims, their lengths and those of a block."""
-
-IDENTITY: Final = "fdspec_identity"
-"""Attribute of the store alone: what a sweep must share to go on in it."""
-
-ORDER: Final = "fdspec_order"
-"""Attribute of the store alone: its variables in their order, which a folder does not keep."""
-
-FILES: Final = "fdspec_files"
-"""Attribute of the store alone: each file that never changes -> its checksum."""
-
-ITSELF: Final = "fdspec_checksum"
-"""Attribute of the store alone: the checksum of all that ``zarr.json`` says beside it."""
-
-VERSION: Final = 2
-"""Since 2 there are checksums of coordinates and of what describes the arrays."""
-
-ROOT: Final = "zarr.json"
-
-COPY: Final = "status/root.json"
-"""A second ``zarr.json``, in the folder of an array, where no reader of Zarr looks."""
 
 SUFFIXES: Final = (".zarr",)
-
-STATUS: Final = "status"
 
 
 class State(Enum):
@@ -71,11 +64,6 @@ class State(Enum):
     MISSING = "missing"
     DAMAGED = "damaged"
     WHOLE = "whole"
-
-
-def is_store(path: str | os.PathLike[str]) -> bool:
-    """Whether there is a Zarr store at `path`, fdspec's or another's."""
-    return (Path(path) / ROOT).is_file() or (Path(path) / COPY).is_file()
 
 
 def create(
@@ -123,7 +111,7 @@ def mend(
             for name in damaged:
                 if name in {ROOT, COPY}:
                     continue
-                if _checksum(part / name) != told[name]:
+                if checksum_of(part / name) != told[name]:
                     raise StoreError(
                         f"{target}: {name} is damaged for good; start over with --restart (restart=True)"
                     )
@@ -149,18 +137,6 @@ def clear(path: Path) -> None:
         path.unlink(missing_ok=True)
 
 
-def damaged_files(path: str | os.PathLike[str]) -> list[str]:
-    """Return the files of coordinates, and of what describes the arrays, that are not as they were made."""
-    told = described_files(path)
-    root = [name for name in (ROOT, COPY) if told and _root(Path(path, name)) is None]
-    return root + [name for name, checksum in told.items() if _checksum(Path(path, name)) != checksum]
-
-
-def described_files(path: str | os.PathLike[str]) -> dict[str, str]:
-    """Return the files that never change, and their checksums; none for a store older than these."""
-    return dict(_attributes(path).get(FILES, {}))
-
-
 def remove(path: str | os.PathLike[str]) -> None:
     """Remove a store; under its name it is gone at once.  One that is being read is kept: BusyError."""
     target = Path(os.path.realpath(path))
@@ -170,24 +146,6 @@ def remove(path: str | os.PathLike[str]) -> None:
     with written(path):
         target.rename(part)
         shutil.rmtree(part)
-
-
-def is_ours(path: str | os.PathLike[str]) -> bool:
-    """Whether a folder is a store that fdspec made, however damaged."""
-    for name in (ROOT, COPY, f"{STATUS}/{ROOT}"):
-        file = Path(path, name)
-        with suppress(OSError):
-            if file.is_file() and (FORMAT if name != f"{STATUS}/{ROOT}" else "flag_meanings").encode() in (
-                file.read_bytes()
-            ):
-                return True
-    return False
-
-
-def described(path: str | os.PathLike[str]) -> tuple[Blocks, dict[str, Any]]:
-    """Return how the cube of a store is cut, and its identity."""
-    attributes = _attributes(path)
-    return _blocks(attributes), attributes[IDENTITY]
 
 
 def write(
@@ -200,18 +158,53 @@ def write(
     """Write one block's values, variable by variable, the status last."""
     import zarr
 
-    with written(path):
-        still_there(path)  # Zarr would make the folders of a store that is gone anew
+    mine = [variable for variable in variables if blocks.owns(number, variable)]
+    paths = {variable.name: chunk_path(path, blocks, number, variable) for variable in mine}
+    with written(path), _of_a_store_that_stays(path, list(paths.values())):
         group = zarr.open_group(path, mode="r+", zarr_format=3)
-        mine = [variable for variable in variables if blocks.owns(number, variable)]
         for variable in sorted(mine, key=lambda variable: variable.name == STATUS):
             if variable.name == STATUS:
                 # The status says that the others are there: also after the machine has stopped.
-                for other in mine:
-                    if other.name != STATUS:
-                        _sync_chunk(path, chunk_path(path, blocks, number, other))
+                for name, chunk in paths.items():
+                    if name != STATUS:
+                        _sync(chunk)
             array: Any = group[variable.name]
             array[blocks.region(number, variable)] = values[variable.name]
+
+
+@contextmanager
+def _of_a_store_that_stays(path: str | os.PathLike[str], chunks: Sequence[Path]) -> Iterator[None]:
+    """Write chunks; raise DiskError where their store is removed before or meanwhile, whatever failed then.
+
+    Zarr makes the folders of a store that is gone anew. What was written into them is removed: a folder
+    that is no store would be in the way of the next one.
+    """
+    still_there(path)
+    try:
+        yield
+    except (KeyError, FileNotFoundError) as error:
+        _withdraw_unless_there(path, chunks)
+        raise DiskError(
+            f"cannot write {os.fspath(path)}: parts of it were removed meanwhile ({error}); "
+            "start the sweep again"
+        ) from error
+    _withdraw_unless_there(path, chunks)
+
+
+def _withdraw_unless_there(path: str | os.PathLike[str], chunks: Sequence[Path]) -> None:
+    try:
+        still_there(path)
+    except DiskError:
+        store = Path(path)
+        for chunk in chunks:
+            with suppress(OSError):
+                chunk.unlink(missing_ok=True)
+            for folder in (chunk.parent, *chunk.parent.parents):
+                if not folder.is_relative_to(store):
+                    break
+                with suppress(OSError):
+                    folder.rmdir()  # one that is not empty stays
+        raise
 
 
 def still_there(path: str | os.PathLike[str]) -> None:
@@ -280,8 +273,8 @@ def open_store(path: str | os.PathLike[str]) -> tuple[xr.Dataset, int, int]:
         raise DamagedError(
             f"cannot open {os.fspath(path)}: the store is damaged: {told}; start the sweep again to mend it"
         )
-    attributes = _attributes(path)
-    blocks = _blocks(attributes)
+    attributes = attributes_of(path)
+    blocks = blocks_of(attributes)
     store = CheckedStore(Path(os.path.realpath(path)))
     on_disk = xr.open_dataset(
         store,  # type: ignore[arg-type]
@@ -368,8 +361,8 @@ def _make(
         _create_array(group, variable, blocks)
     files = sorted(file for file in part.rglob("*") if file.is_file() and file != part / ROOT)
     root = json.loads((part / ROOT).read_bytes())
-    root["attributes"][FILES] = {file.relative_to(part).as_posix(): _checksum(file) for file in files}
-    root["attributes"][ITSELF] = _of_root(root)
+    root["attributes"][FILES] = {file.relative_to(part).as_posix(): checksum_of(file) for file in files}
+    root["attributes"][ITSELF] = root_checksum(root)
     for name in (ROOT, COPY):
         (part / name).write_text(json.dumps(root, indent=1), encoding="utf-8")
     for file in (*files, part / ROOT, part / COPY):
@@ -385,31 +378,6 @@ def _sync(file: Path) -> None:
         os.close(descriptor)
 
 
-def _sync_chunk(path: str | os.PathLike[str], chunk: Path) -> None:
-    try:
-        _sync(chunk)
-    except FileNotFoundError:
-        still_there(path)
-        raise
-
-
-def _checksum(file: Path) -> str | None:
-    """Return the checksum of a file, None where there is none that can be read."""
-    try:
-        if not file.is_file():  # a pipe would be waited on
-            return None
-        return f"{of_bytes(file.read_bytes()):08x}"
-    except OSError as error:
-        if told := no_resources(error):
-            raise DiskError(f"cannot read {file}: {told}") from error
-        return None
-
-
-def _of_root(root: Mapping[str, Any]) -> str:
-    attributes = {key: value for key, value in root["attributes"].items() if key != ITSELF}
-    return f"{of_bytes(json.dumps({**root, 'attributes': attributes}, sort_keys=True).encode()):08x}"
-
-
 def _state(path: Path) -> State:
     try:
         if not path.exists():
@@ -422,69 +390,6 @@ def _state(path: Path) -> State:
             raise DiskError(f"cannot read {path}: {told}") from error
         return State.DAMAGED
     return State.WHOLE if is_whole(content) else State.DAMAGED
-
-
-def _root(file: Path) -> dict[str, Any] | None:
-    """Return what ``zarr.json``, or its copy, says; None where it is damaged."""
-    try:
-        if not file.is_file():
-            return None
-        root = json.loads(file.read_bytes())
-        attributes = root["attributes"]
-        if attributes.get(FORMAT) != 1 and ITSELF not in attributes and FORMAT in attributes:
-            return None
-        if ITSELF in attributes and attributes[ITSELF] != _of_root(root):
-            return None
-    except (KeyError, TypeError, ValueError, AttributeError, RecursionError):
-        return None
-    except OSError as error:
-        if told := no_resources(error):
-            raise DiskError(f"cannot read {file}: {told}") from error
-        return None
-    return dict(root)
-
-
-def _attributes(path: str | os.PathLike[str]) -> dict[str, Any]:
-    """Return the attributes of one of fdspec's stores."""
-    found = _root(Path(path, ROOT)) or _root(Path(path, COPY))
-    if found is None:
-        if is_ours(path):
-            raise DamagedError(
-                f"cannot open {os.fspath(path)}: the store is damaged: zarr.json; start over with --restart "
-                "(restart=True)"
-            )
-        raise StoreError(
-            f"cannot open {os.fspath(path)}: it is no Zarr store, or one that cannot be read as one"
-        )
-    attributes: dict[str, Any] = found["attributes"]
-    if not {FORMAT, BLOCKS, IDENTITY, ORDER} <= attributes.keys():
-        raise StoreError(
-            f"cannot open {os.fspath(path)}: it is another program's Zarr store; name one that fdspec made, "
-            "or read it with xarray.open_zarr"
-        )
-    version = attributes[FORMAT]
-    if isinstance(version, int) and version > VERSION:
-        raise StoreError(
-            f"cannot open {os.fspath(path)}: its layout is version {version}, this fdspec knows "
-            f"{VERSION}; upgrade fdspec"
-        )
-    kinds = {FORMAT: int, BLOCKS: dict, IDENTITY: dict, ORDER: list, FILES: dict}
-    for name, kind in kinds.items():
-        if not isinstance(attributes.get(name, kind()), kind):
-            raise DamagedError(
-                f"cannot open {os.fspath(path)}: the store is damaged: {name} is no {kind.__name__}"
-            )
-    return attributes
-
-
-def _blocks(attributes: Mapping[str, Any]) -> Blocks:
-    told = attributes[BLOCKS]
-    sizes, edges = told.get("sizes"), told.get("edges")
-    if not (isinstance(sizes, dict) and isinstance(edges, dict) and list(sizes) == list(edges)) or not all(
-        isinstance(one, int) and one > 0 for one in (*sizes.values(), *edges.values())
-    ):
-        raise DamagedError(f"the store is damaged: {BLOCKS} does not say how it is cut")
-    return Blocks(sizes, edges)
 
 
 def _plain_text(on_disk: xr.Dataset) -> xr.Dataset:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fdspec.errors import DiskError, StoreError
-from fdspec.store import checksums, chunks, layout
+from fdspec.store import checksums, chunks, description, layout
 from fdspec.store.blocks import Blocks
 from fdspec.store.netcdf import FORMAT, VERSION, with_lists, write_netcdf
 from fdspec.store.refusals import no_resources
@@ -39,7 +39,7 @@ def to_netcdf(store: str | os.PathLike[str], path: str | os.PathLike[str], *, ov
                 f"cannot write {os.fspath(path)}: {left} of {count} blocks of {os.fspath(store)} are "
                 "not computed"
             )
-        blocks, _ = chunks.described(store)
+        blocks, _ = description.described(store)
         coordinates = layout.to_disk(cube.drop_vars(list(cube.data_vars)))
         coordinates.attrs[FORMAT] = np.int32(VERSION)
         with replacing(path, overwrite=overwrite) as part:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from fdspec.errors import StoreError
 from fdspec.store.history_csv import changes_of, course_of, fixed, meaning_of
-from fdspec.store.table import blocks, columns_of, dims_of, heading, origin
+from fdspec.store.table import blocks, columns_of, dims_of, heading, links_in_columns, origin
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -57,6 +57,7 @@ Sheet = tuple[Sequence[str], Iterable[Sequence[Any]], int]
 def _sheets(one: xr.Dataset) -> tuple[dict[str, Sheet], list[str]]:
     """Return head, rows and number of rows of each sheet, and the lines of the last."""
     if "time" not in one.dims:
+        one = links_in_columns(one)
         dims = dims_of(one)
         columns = columns_of(one, dims)
         count = math.prod(one.sizes[dim] for dim in dims)

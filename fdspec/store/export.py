@@ -16,7 +16,7 @@ from fdspec.store.layout import is_text
 from fdspec.store.matlab import MATLAB_SUFFIXES, write_matlab
 from fdspec.store.netcdf import write_netcdf
 from fdspec.store.replacing import NETCDF_SUFFIXES, replacing
-from fdspec.store.table import blocks, columns_of, dims_of, heading, origin
+from fdspec.store.table import blocks, columns_of, dims_of, heading, links_in_columns, origin
 from fdspec.variables import motion_variables
 
 if TYPE_CHECKING:
@@ -112,6 +112,7 @@ def _without_text(one: xr.Dataset) -> xr.Dataset:
 
 
 def _write_csv(one: xr.Dataset, part: Path) -> None:
+    one = links_in_columns(one)
     dims = dims_of(one)
     columns = columns_of(one, dims)
     with part.open("w", encoding="utf-8", newline="") as file:

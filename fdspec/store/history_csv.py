@@ -79,7 +79,8 @@ def fixed(history: xr.Dataset) -> Iterator[str]:
     """Give what does not change in time, with its values."""
     for key, array in history.variables.items():
         name = str(key)
-        if array.dims in {(), ("storey",)} and name != "storey" and not is_text(array):
+        of_each = array.dims in {("storey",), ("link",)} and name not in array.dims
+        if (not array.dims or of_each) and not is_text(array):
             values = ", ".join(repr(value) for value in np.atleast_1d(array.values).tolist())
             yield f"{meaning_of(name, array.attrs)}: {values}"
 

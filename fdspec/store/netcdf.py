@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from fdspec.errors import DamagedError, DiskError, FdspecError, InvalidInput, StoreError
-from fdspec.store import checksums, chunks, layout
+from fdspec.store import checksums, chunks, description, layout
 from fdspec.store.memory import check_size
 from fdspec.store.origin import with_true_parameters
 from fdspec.store.refusals import no_resources
@@ -138,7 +138,7 @@ def open(path: str | os.PathLike[str], *, lazily: bool | None = None) -> xr.Data
         When a store's sweep has not come to its end; cells not computed yet say so in their status.
     """
     try:
-        store = chunks.is_store(path)
+        store = description.is_store(path)
         if not store:
             _check_magic(Path(path))
     except (OSError, RuntimeError, ValueError) as error:  # a loop of links, a name too long, a NUL in it

@@ -21,6 +21,19 @@ def dims_of(one: xr.Dataset) -> tuple[str, ...]:
     return tuple(dict.fromkeys(str(dim) for dims in by_size for dim in dims))
 
 
+def links_in_columns(one: xr.Dataset) -> xr.Dataset:
+    """Return the cube with a variable for each link, ``link_energy_high`` say, in place of their dim."""
+    if "link" not in one.dims:
+        return one
+    of_links = [str(name) for name, array in one.data_vars.items() if "link" in array.dims]
+    apart = {
+        f"{name}_{label}": one[name].isel(link=k).drop_vars("link")
+        for name in of_links
+        for k, label in enumerate(one["link"].values.tolist())
+    }
+    return one.drop_vars([*of_links, "link"]).assign(apart)
+
+
 def columns_of(one: xr.Dataset, dims: tuple[str, ...]) -> list[str]:
     """Return the dims, what else is known along them, and the results; text stands in the heading."""
     along = [str(name) for name, array in one.coords.items() if array.ndim and name not in dims]

@@ -10,6 +10,7 @@ import numpy as np
 from fdspec.model.building import Building, ModalDamping
 from fdspec.model.link import Link, TensionBrace
 from fdspec.model.motion import GroundMotion
+from fdspec.model.side_by_side import side_by_side
 from fdspec.runs.simulate import simulate
 from fdspec.verification.problems import still
 from fdspec.verification.row import Row, relative, same_count
@@ -28,6 +29,7 @@ def rows(full: bool) -> Iterator[Row]:  # noqa: ARG001
     yield from flag_loop()
     yield from tension_only()
     yield from columns_and_massless_brace()
+    yield from frames_joined_by_a_damper()
 
 
 def step_load() -> Iterator[Row]:
@@ -192,3 +194,21 @@ def columns_and_massless_brace() -> Iterator[Row]:
         yield relative(case, f"{name.replace('_', ' ')}", float(other[name][0]), float(one[name][0]), 1e-12)
     count = int(other["transitions"])
     yield same_count(case, "yields and unloadings", count, int(one["column_events"][0]))
+
+
+def frames_joined_by_a_damper() -> Iterator[Row]:
+    """Let two equal frames swing against each other: their damper sticks, then slips to the peak."""
+    mass, k, brace, friction, velocity = 1800.0, 9.0e4, 3.0e5, 1500.0, 0.3
+    frame = Building(mass, k, 0.0, 0.0, 0.0, damping=NO_DAMPING)
+    pair = side_by_side(frame, frame, links=[Link(1, 2, brace, friction)])
+    gives_way = 0.5 * friction / brace
+    speed = math.sqrt(velocity**2 - (k + 2.0 * brace) / mass * gives_way**2)
+    centre = friction / k
+    peak = math.hypot(gives_way + centre, speed * math.sqrt(mass / k)) - centre
+    history = simulate(pair, still(0.3, 0.01), initial_velocity=[velocity, -velocity])
+    case = "frames joined by a damper"
+    for frame_number in (0, 1):
+        found = float(history["peak_displacement"][frame_number])
+        yield relative(case, f"peak displacement of frame {frame_number + 1}, m", peak, found, 1e-12)
+    slip = 2.0 * peak - friction / brace
+    yield relative(case, "slip, m", slip, float(history["peak_link_slip"][0]), 1e-12)

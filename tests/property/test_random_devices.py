@@ -38,7 +38,7 @@ def difference(one: Outcome, other: Outcome) -> float:
     return float((np.abs(one.peaks - other.peaks) / np.maximum(np.abs(one.peaks), 1e-12)).max())
 
 
-def check_subdivision(seeds: Sequence[int], seconds: float) -> None:
+def check_subdivision(seeds: Sequence[int], seconds: float, *, beside: bool = False) -> None:
     """Another step and another order give the same peaks and counts.
 
     A frame that makes 1e-15 of its ground motion felt (chaos: rounding itself is felt as much) is held to
@@ -47,7 +47,7 @@ def check_subdivision(seeds: Sequence[int], seconds: float) -> None:
     compared = 0
     for seed in seeds:
         rng = np.random.default_rng(seed)
-        building, motion = random_building(rng), random_motion(rng, seconds)
+        building, motion = random_building(rng, beside=beside), random_motion(rng, seconds)
         one = outcome(building, motion)
         assert one.totals["status"] in (OK, COLLAPSED), seed
         other = outcome(building, motion, radians=1.1, extra_terms=2)
@@ -64,11 +64,11 @@ def check_subdivision(seeds: Sequence[int], seconds: float) -> None:
     assert compared >= 0.9 * len(seeds)
 
 
-def check_nothing_ends_badly(seeds: Iterable[int], seconds: float) -> None:
+def check_nothing_ends_badly(seeds: Iterable[int], seconds: float, *, beside: bool = False) -> None:
     """No status but a true collapse, a balance that closes."""
     for seed in seeds:
         rng = np.random.default_rng(seed)
-        building, motion = random_building(rng, adversarial=True), random_motion(rng, seconds)
+        building, motion = random_building(rng, adversarial=True, beside=beside), random_motion(rng, seconds)
         one = outcome(building, motion)
         assert one.totals["status"] in (OK, COLLAPSED), seed
         assert one.totals["energy_error"] <= 1e-9, seed
@@ -87,6 +87,14 @@ def test_a_brace_that_stops_a_moment_before_its_neighbour() -> None:
     check_subdivision([10_237], 2.0)
 
 
+def test_nothing_depends_on_the_step_in_frames_beside_each_other() -> None:
+    check_subdivision(range(2000, 2010), 3.0, beside=True)
+
+
+def test_adversarial_frames_beside_each_other_end_well() -> None:
+    check_nothing_ends_badly(range(300, 310), 2.0, beside=True)
+
+
 def test_adversarial_frames_end_well() -> None:
     check_nothing_ends_badly(range(20), 2.0)
 
@@ -101,3 +109,10 @@ def test_nothing_depends_on_the_step_in_two_thousand_frames(part: int) -> None:
 @pytest.mark.slow
 def test_adversarial_frames_end_well_by_the_hundred() -> None:
     check_nothing_ends_badly(range(100_000, 100_000 + frames(500)), 2.0)
+
+
+@pytest.mark.slow
+def test_frames_beside_each_other_by_the_hundred() -> None:
+    count = frames(200)
+    check_nothing_ends_badly(range(300_000, 300_000 + count), 2.0, beside=True)
+    check_subdivision(range(400_000, 400_000 + count), 2.0, beside=True)

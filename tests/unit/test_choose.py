@@ -25,7 +25,7 @@ from fdspec.report import page, text
 from fdspec.report.findings import plainly
 from fdspec.report.inputs import MOTION_HEAD, first_mode, input_rows, motion_rows, storey_stiffness
 from fdspec.report.numbers import rounded
-from fdspec.runs.study import STUDY_RECORDS
+from fdspec.runs.study_records import STUDY_RECORDS
 from tests.unit.test_choice import clipped
 
 FOUR = """

@@ -10,12 +10,13 @@ import numpy as np
 import pytest
 
 import fdspec
-from fdspec import Building, Link, ModalDamping
+from fdspec import Building, Link, ModalDamping, TensionBrace
 from fdspec.cli import main
 from fdspec.errors import InvalidInput, StudyError
 from fdspec.model.building_file import read_building
+from fdspec.model.grid import Grid
 from fdspec.runs.study import Study
-from fdspec.variables import STATUSES
+from fdspec.variables import STATUSES, link_variables
 from tests.reference import numbers
 
 GROUND, DT = numbers.motion("mdof_peaks.json")
@@ -58,6 +59,53 @@ def test_a_store_and_a_file_keep_them(tmp_path: Path) -> None:
         np.testing.assert_array_equal(cube[name], stored[name], err_msg=str(name))
     fdspec.save(cube, tmp_path / "cube.nc")
     assert fdspec.open(tmp_path / "cube.nc").identical(cube)
+
+
+ENDS = "upper = 1\nlower = 0\n"
+LINKS = (
+    Link(1, 0, 30e6, 25e3, mass=40.0, slot_length=0.01, slot_stiffness=5e7, name="second"),
+    TensionBrace(1, 0, 10e6, 60e3, slack=0.002),
+)
+
+
+def test_links_and_the_drift_of_collapse_in_sweeps_and_study_files() -> None:
+    cube = fdspec.sweep(SHORT, **AXES, links=LINKS, collapse_drift=0.5)
+    frame = Building.single_storey(
+        period=0.5, stiffness_ratio=2.0, slip_force=20e3, links=LINKS, collapse_drift=0.5
+    )
+    history = fdspec.simulate(frame, SHORT)
+    cell = cube.sel(record="short", period=0.5, pretension=40e3, stiffness_ratio=2.0)
+    for name in ("peak_acceleration", "residual_displacement", "peak_slip"):
+        np.testing.assert_array_equal(cell[name], history[name][0], err_msg=name)
+    assert (cube["peak_displacement"] < fdspec.sweep(SHORT, **AXES)["peak_displacement"]).mean() > 0.5
+    study = Study(grid=Grid(**AXES, links=LINKS, collapse_drift=0.5))
+    again = Study.parse(study.to_toml())
+    assert again.grid.links == LINKS
+    assert again.grid.collapse_drift == 0.5
+    assert again.grid.parameters["links"] == study.grid.parameters["links"]
+    fallen = fdspec.sweep(SHORT, **AXES, collapse_drift=0.001)
+    assert (fallen["status"] == 5).any()
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        (
+            "[[links]]\nupper = 1\nlower = 0\nstiffness = -1.0\nslip_force = 1.0",
+            "links: stiffness: Input should",
+        ),
+        ("[[links]]\nupper = 2\nlower = 0\nstiffness = 1.0\nslip_force = 1.0", "links: link 1 joins floor 2"),
+        (
+            "[[tension_braces]]\nupper = 1\nlower = 0\nstiffness = 1.0\nslack = -1.0",
+            "tension_braces: slack: ",
+        ),
+        ("links = 3", r"links: must be tables, \[\[links\]\], got 3"),
+        ("collapse_drift = 0.0", "collapse_drift: must be positive, got 0"),
+    ],
+)
+def test_what_a_study_file_refuses_of_links(text: str, sentence: str) -> None:
+    with pytest.raises(StudyError, match=f"study, line 1: {sentence}"):
+        Study.parse(text)
 
 
 def test_an_elastic_sweep_says_nothing_of_devices() -> None:
@@ -153,6 +201,39 @@ def test_sweep_buildings_with_and_without_devices() -> None:
     assert (plain["peak_slip"] > 0.0).all()
     assert "peak_drift_ratio" not in cube
     assert (cube["status"] == 0).all()
+
+
+def test_cubes_have_what_each_link_takes(tmp_path: Path) -> None:
+    links = [Link(2, 0, 20e6, 20e3, name="high"), Link(1, 0, 30e6, 40e3, mass=50.0)]
+    pair = {"linked": office(links=links), "yielding too": office(links=links, yield_shear=60e3)}
+    axes: dict[str, Any] = {"slip_scale": [0.5, 1.0], "stiffness_scale": [1.0, 2.0]}
+    cube = fdspec.sweep_buildings([SHORT, BRIEF], pair, **axes)
+    assert cube["link"].values.tolist() == ["high", "link 2"]
+    history = fdspec.simulate(pair["yielding too"], SHORT)
+    cell = cube.sel(record="short", building="yielding too", slip_scale=1.0, stiffness_scale=1.0)
+    for variable in link_variables(()):
+        np.testing.assert_array_equal(cell[variable.name], history[variable.name], err_msg=variable.name)
+    assert (cube["peak_link_slip"] > 0.0).all()
+    stored = fdspec.sweep_buildings([SHORT, BRIEF], pair, **axes, store=tmp_path / "cube.zarr").load()
+    for name in cube.data_vars:
+        np.testing.assert_array_equal(cube[name], stored[name], err_msg=str(name))
+    fdspec.save(cube, tmp_path / "cube.nc")
+    assert fdspec.open(tmp_path / "cube.nc", lazily=False).identical(cube)
+    levels = fdspec.sweep_buildings(SHORT, pair["linked"], **axes, intensity=[1.0, 2.0])
+    assert levels["peak_link_slip"].sizes["intensity"] == 2
+    assert (levels["peak_link_slip"].sel(intensity=2.0) > cube["peak_link_slip"].sel(record="short")[0]).all()
+
+
+def test_links_that_differ_have_no_axis(tmp_path: Path) -> None:
+    pair = {"linked": office(links=[Link(2, 0, 20e6, 20e3)]), "plain": office()}
+    axes: dict[str, Any] = {"slip_scale": [1.0], "stiffness_scale": [1.0]}
+    cube = fdspec.sweep_buildings(BRIEF, pair, **axes)
+    assert "link" not in cube.dims
+    stored = fdspec.sweep_buildings(
+        BRIEF, pair, **axes, store=tmp_path / "cube.zarr", cells_per_task=1
+    ).load()
+    for name in cube.data_vars:
+        np.testing.assert_array_equal(cube[name], stored[name], err_msg=str(name))
 
 
 def test_choose_with_devices() -> None:

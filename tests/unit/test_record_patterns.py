@@ -8,7 +8,7 @@ import pytest
 from fdspec.cli.main import main
 from fdspec.errors import StudyError
 from fdspec.runs.building_study import read_study
-from fdspec.runs.study import RecordFile
+from fdspec.runs.study_records import RecordFile
 from fdspec.store import open as open_cube
 from tests.unit.test_after_records import TWO
 

@@ -6,18 +6,20 @@ import itertools
 import json
 import shutil
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 import xarray as xr
+from zarr.storage import LocalStore
 
 import fdspec
 from fdspec.errors import DiskError, StoreError
 from fdspec.runs import resumable
 from fdspec.runs.resumable import differences, identity_of, plan_blocks
 from fdspec.runs.sweep import COLUMNS
-from fdspec.store import chunks
+from fdspec.store import chunks, description
 from fdspec.store.conversion import to_netcdf
 from fdspec.variables import CUBE, STUDY_DIMS
 from tests.unit.test_sweep import AXES, record
@@ -53,6 +55,60 @@ def computed(monkeypatch: pytest.MonkeyPatch, *, until: int | None = None) -> li
 
     monkeypatch.setattr(chunks, "write", counting)
     return written
+
+
+def removed_at(monkeypatch: pytest.MonkeyPatch, call: int, remove: Callable[[], None]) -> list[str]:
+    """Remove something just before a file of the store is read or written for the call-th time."""
+    calls: list[str] = []
+
+    def watched(name: str) -> None:
+        plain = getattr(LocalStore, name)
+
+        async def watching(self: LocalStore, key: str, *rest: Any, **named: Any) -> Any:
+            if len(calls) == call:
+                remove()
+            calls.append(key)
+            return await plain(self, key, *rest, **named)
+
+        monkeypatch.setattr(LocalStore, name, watching)
+
+    watched("get")
+    watched("set")
+    return calls
+
+
+@pytest.mark.parametrize("part", ["", "status", "peak_displacement/zarr.json"])
+def test_what_is_removed_at_any_instant_of_a_write_is_told(
+    motions: Motions, store: Path, monkeypatch: pytest.MonkeyPatch, part: str
+) -> None:
+    fdspec.sweep(motions, **AXES, store=store).close()
+    blocks = description.described(store)[0]
+    cube = fdspec.open(store, lazily=False)
+    variables = [CUBE[name] for name in map(str, cube.data_vars) if name in CUBE]
+    values = {v.name: cube[v.name].values[blocks.region(0, v)] for v in variables if blocks.owns(0, v)}
+    elsewhere = store.with_name("elsewhere")
+    for call in range(200):
+        with monkeypatch.context() as patch:
+            calls = removed_at(patch, call, lambda: (store / part).rename(elsewhere))
+            told = None
+            try:
+                chunks.write(store, blocks, 0, values, variables)
+            except DiskError as error:
+                told = str(error)
+        if len(calls) <= call:
+            break
+        if part:
+            assert told is None or f"cannot write {store}: parts of it were removed meanwhile" in told
+        else:
+            assert told is not None
+            assert "there is no such store; it was removed" in told
+            assert not store.exists(), "an empty store is in the way of the next"
+        if store.joinpath(part).is_dir():  # Zarr made the folder anew
+            shutil.rmtree(store / part)
+        store.joinpath(part).unlink(missing_ok=True)
+        elsewhere.rename(store / part)
+    assert call > 10
+    assert told is None
 
 
 @pytest.mark.parametrize("columns_per_task", [None, 1, 2, 3, 5, 8, 12])
@@ -239,7 +295,7 @@ def test_blocks_are_of_a_length_worth_a_task() -> None:
 
 def test_names_of_chunks_are_zarrs(motions: Motions, store: Path) -> None:
     fdspec.sweep(motions, **AXES, store=store, columns_per_task=2)
-    blocks, _ = chunks.described(store)
+    blocks, _ = description.described(store)
     variables = [CUBE[str(name)] for name in fdspec.open(store).data_vars]
     mine = {
         chunks.chunk_path(store, blocks, number, variable)

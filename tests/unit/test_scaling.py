@@ -13,7 +13,8 @@ from fdspec.errors import InvalidInput, RecordError, StudyError
 from fdspec.model.motion import GroundMotion
 from fdspec.records import load_record
 from fdspec.runs.record_scaling import Scaling
-from fdspec.runs.study import RecordFile, Study
+from fdspec.runs.study import Study
+from fdspec.runs.study_records import RecordFile
 from fdspec.signals.scaling import (
     Target,
     band,

@@ -95,6 +95,27 @@ def test_csv_of_buildings_has_a_row_for_each_storey(tmp_path):
         )
 
 
+def test_csv_has_a_column_for_each_link(tmp_path):
+    cube = synthetic_building_cube()
+    store.export(cube, tmp_path / "one.csv", record="FSR1")
+    heading, rows = read_csv(tmp_path / "one.csv")
+    one = cube.sel(record="FSR1")
+    for k, link in enumerate(one["link"].values.tolist()):
+        name = f"peak_link_slip_{link}"
+        assert any(line.startswith(f"# {name} [m] largest slip") for line in heading)
+        expected = one["peak_link_slip"][..., k].broadcast_like(one["peak_drift"])
+        expected = expected.transpose(*one["peak_drift"].dims).to_numpy().ravel()
+        assert [float(row[name]) for row in rows] == expected.tolist()
+
+
+def test_the_heading_of_a_history_has_what_each_link_takes(tmp_path):
+    history = synthetic_history()
+    store.export(history, tmp_path / "history.csv")
+    heading, _ = read_csv(tmp_path / "history.csv")
+    (line,) = [line for line in heading if line.startswith("# peak_link_slip [m]")]
+    assert line.endswith(": " + ", ".join(map(repr, history["peak_link_slip"].values.tolist())))
+
+
 def test_csv_says_what_each_column_is(tmp_path):
     store.export(synthetic_cube(), tmp_path / "one.csv", record="FSR1")
     heading, rows = read_csv(tmp_path / "one.csv")

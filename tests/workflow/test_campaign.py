@@ -15,7 +15,7 @@ import fdspec
 from fdspec.cli.main import main
 from fdspec.model.motion import GroundMotion
 from fdspec.records.writing import write_record
-from fdspec.store import chunks
+from fdspec.store import chunks, description
 from fdspec.store.check import check
 from fdspec.variables import INTENSITY_BUILDING_CUBE
 from tests.workflow.test_killed_buildings import SIX, start
@@ -47,9 +47,9 @@ def campaign(folder: Path) -> Path:
 
 def done(store: Path) -> float:
     """Share of the store's blocks that are finished."""
-    if not chunks.is_store(store):
+    if not description.is_store(store):
         return 0.0
-    blocks, _ = chunks.described(store)
+    blocks, _ = description.described(store)
     status = INTENSITY_BUILDING_CUBE["status"]
     finished = [chunks.chunk_path(store, blocks, n, status).exists() for n in range(len(blocks))]
     return sum(finished) / len(finished)

@@ -24,7 +24,7 @@ from fdspec.cli import main
 from fdspec.errors import ClusterError, DiskError
 from fdspec.scheduling import cluster
 from fdspec.scheduling.task import Task
-from fdspec.store import chunks
+from fdspec.store import chunks, description
 from tests.unit.test_sweep import record
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -136,7 +136,7 @@ def when(condition: Callable[[], bool], act: Callable[[], None]) -> Iterator[Non
 
 
 def some_finished(store: Path) -> Callable[[], bool]:
-    return lambda: chunks.is_store(store) and len(list((store / "status/c").rglob("0"))) > 5
+    return lambda: description.is_store(store) and len(list((store / "status/c").rglob("0"))) > 5
 
 
 def test_two_processes_give_the_bits_of_threads(

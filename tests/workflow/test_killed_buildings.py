@@ -14,7 +14,7 @@ import pytest
 import xarray as xr
 
 import fdspec
-from fdspec.store import chunks
+from fdspec.store import chunks, description
 from fdspec.store.check import check
 from fdspec.variables import BUILDING_CUBE
 
@@ -61,9 +61,9 @@ def start(folder: Path, *options: str) -> subprocess.Popen[bytes]:
 
 
 def blocks_done(store: Path) -> set[int]:
-    if not chunks.is_store(store):
+    if not description.is_store(store):
         return set()
-    blocks, _ = chunks.described(store)
+    blocks, _ = description.described(store)
     status = BUILDING_CUBE["status"]
     return {n for n in range(len(blocks)) if chunks.chunk_path(store, blocks, n, status).exists()}
 
@@ -86,7 +86,7 @@ def test_killed_at_five_instants_and_resumed_to_the_same_bits(
         there = blocks_done(store)
         assert before <= there, "a finished block is gone"
         assert {finding.what for finding in check(store) if finding.passed is False} >= (
-            {"checksums"} if len(there) < len(chunks.described(store)[0]) else set()
+            {"checksums"} if len(there) < len(description.described(store)[0]) else set()
         )
         before = there
     assert deaths >= 3

@@ -15,7 +15,7 @@ import pytest
 import xarray as xr
 
 import fdspec
-from fdspec.store import chunks
+from fdspec.store import chunks, description
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -69,7 +69,7 @@ def kill(process: subprocess.Popen[bytes]) -> bool:
 
 def finished(store: Path) -> set[int]:
     """Return the blocks whose status is there."""
-    blocks, _ = chunks.described(store)
+    blocks, _ = description.described(store)
     status = fdspec.variables.CUBE["status"]
     return {n for n in range(len(blocks)) if chunks.chunk_path(store, blocks, n, status).exists()}
 
@@ -104,7 +104,7 @@ class Interrupted:
             half = fdspec.open(self.store, lazily=False)
         there = finished(self.store)
         assert self.before <= there, "a finished block is gone"
-        blocks, _ = chunks.described(self.store)
+        blocks, _ = description.described(self.store)
         status = fdspec.variables.CUBE["status"]
         assert bool(said) == (len(there) < len(blocks))
         assert int((half["status"] == 0).sum()) == sum(blocks.cells(number, status) for number in there)
@@ -115,7 +115,7 @@ class Interrupted:
 
     def half_done(self) -> bool:
         """Return whether some blocks are there and some are not."""
-        return bool(self.before) and len(self.before) < len(chunks.described(self.store)[0])
+        return bool(self.before) and len(self.before) < len(description.described(self.store)[0])
 
     def end(self) -> xr.Dataset:
         """Let it go on to its end, and return what the store holds then."""

@@ -9,7 +9,7 @@ import fdspec
 from fdspec.measures import study_claims
 from fdspec.measures.claims import CLAIMS, verdict_of_claim
 from fdspec.model.grid import Grid
-from fdspec.runs.study import STUDY_RECORDS
+from fdspec.runs.study_records import STUDY_RECORDS
 
 README = Path(__file__).parents[2] / "README.md"
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import fdspec
-from fdspec.store import chunks
+from fdspec.store import description
 from fdspec.variables import CUBE
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -74,7 +74,7 @@ def test_ten_million_histories(tmp_path: Path) -> None:
         records.append(f'{{ path = "r{number}.txt", units = "m/s2", dt = 0.02 }}')
     (tmp_path / "study.toml").write_text(STUDY.format(records=", ".join(records)), encoding="utf-8")
     assert peak_memory(tmp_path, "cube.zarr", "--log", "log") < GIB
-    blocks, _ = chunks.described(tmp_path / "cube.zarr")
+    blocks, _ = description.described(tmp_path / "cube.zarr")
     assert sum(blocks.cells(number, CUBE["status"]) for number in range(len(blocks))) == 10_000_000
     opening, cell = opened(tmp_path / "cube.zarr")
     assert opening < 1.0

@@ -36,18 +36,19 @@ def first_event(frame, law, state, series, n, instants, signs, events):
 
 
 @inner
-def first_collapse(series, n, limits):
+def first_collapse(frame, series, n):
     """Fraction of the step at which a drift reaches its limit, NO_ROOT where none does, and the storey."""
     first = NO_ROOT
     where = -1
     c = series.c
-    for i in range(limits.size):
-        if limits[i] == math.inf:
+    for i in range(frame.drift_limit.size):
+        limit = frame.drift_limit[i]
+        if limit == math.inf:
             continue
         for sign in (1.0, -1.0):
             for k in range(n + 1):
-                c[k] = -sign * (series.floors[U, i + 1, k] - series.floors[U, i, k])
-            c[0] += limits[i]
+                c[k] = -sign * (series.floors[U, i + 1, k] - series.floors[U, frame.below[i], k])
+            c[0] += limit
             x = root_of(c, n)
             if x < first:
                 first = x

@@ -48,7 +48,9 @@ from fdspec.kernels.types import (
 
 given1d = types.Array(types.float64, 1, "C", readonly=True)
 given2d = types.Array(types.float64, 2, "C", readonly=True)
+nodes1d = types.Array(types.int64, 1, "C", readonly=True)
 places2d = types.Array(types.int64, 2, "C", readonly=True)
+flags2d = types.Array(types.boolean, 2, "C", readonly=True)
 int2d = types.Array(types.int64, 2, "C")
 
 RADIANS = 2.5
@@ -154,7 +156,7 @@ def history(
             rise = slope * h
             expand(frame, law, state, n, h, acceleration, rise, series)
             x = first_event(frame, law, state, series, n, instants, signs, events)
-            falls, storey = first_collapse(series, n, frame.drift_limit)
+            falls, storey = first_collapse(frame, series, n)
             collapses = falls <= min(x, 1.0)
             happens = x <= 1.0 and not collapses
             done = falls if collapses else (x if happens else 1.0)
@@ -248,6 +250,8 @@ def history(
         places2d,
         given2d,
         given1d,
+        nodes1d,
+        flags2d,
         given1d,
         types.float64,
         types.int64,
@@ -277,6 +281,8 @@ def integrate(
     places,
     links,
     drift_limit,
+    below,
+    carried,
     ground,
     dt,
     free_steps,
@@ -298,7 +304,7 @@ def integrate(
 ):
     """Integrate one history of a frame with devices.
 
-    mass to drift_limit: the fields of `layout.Frame`.  ground: acceleration at the samples dt apart, m/s2,
+    mass to carried: the fields of `layout.Frame`.  ground: acceleration at the samples dt apart, m/s2,
     (n,); free_steps: steps of dt with the ground at rest that follow.  radians: longest phase of a step;
     extra: terms beyond those the series needs.
 
@@ -306,14 +312,16 @@ def integrate(
     afterwards.  resumes: whether mode is given; else the state asks for it.  log_times (k,), log (2, k):
     changes of phase in the order of time, link and new phase, as far as there is room.  floor_traces
     (m, 4, N), link_traces (m, 7, L), energies (m, 6): filled at i dt_out for i < m.  tally (TALLY_ROWS, L),
-    peaks (PEAK_ROWS, N), totals (len(TOTALS),): results, zeroed here.
+    peaks (PEAK_ROWS, S), totals (len(TOTALS),): results, zeroed here.
     """
     count = places.shape[1]
     nodes = mass.size
     tally[:] = 0.0
     peaks[:] = 0.0
     totals[:] = 0.0
-    frame = Frame(mass, ends, springs, dense_stiffness, dense_damping, places, links, drift_limit)
+    frame = Frame(
+        mass, ends, springs, dense_stiffness, dense_damping, places, links, drift_limit, below, carried
+    )
     history(
         frame,
         Law(np.zeros(nodes), np.zeros(count), np.zeros(count)),

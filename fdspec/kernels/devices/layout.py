@@ -116,6 +116,10 @@ class Frame(NamedTuple):
     """(LINK_ROWS, L)."""
     drift_limit: Any
     """(N,) m: drift between a floor and the one below at which the frame has collapsed; inf: never."""
+    below: Any
+    """(N,) node that each storey stands on."""
+    carried: Any
+    """(S, N + 1) which nodes each storey carries; one more row where the ground carries several frames."""
 
 
 class Law(NamedTuple):

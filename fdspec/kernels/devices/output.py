@@ -21,7 +21,7 @@ from fdspec.kernels.devices.layout import (
     V,
     Z,
 )
-from fdspec.kernels.devices.peaks import storey_shear
+from fdspec.kernels.devices.peaks import shear_below
 from fdspec.kernels.devices.tally import travel_since, work_since
 from fdspec.kernels.friction import sliding_force
 from fdspec.kernels.mathematics.polynomial_roots import value
@@ -69,7 +69,7 @@ def write_traces(frame, state, then, series, n, h, y, floor_traces, link_traces,
         floor_traces[row, FLOOR.displacement, i - 1] = then.floors[U, i]
         floor_traces[row, FLOOR.velocity, i - 1] = then.floors[V, i]
         floor_traces[row, FLOOR.acceleration, i - 1] = value(series.floors[A, i], n - 1, y)
-        storey_shear(frame, series, n, h, i, series.c)
+        shear_below(frame, series, n, h, frame.carried[i - 1], series.c)
         floor_traces[row, FLOOR.storey_shear, i - 1] = value(series.c, n - 1, y)
     for j in range(frame.places.shape[1]):
         offset = then.sliders[O, j]

@@ -32,7 +32,8 @@ PEAK_VELOCITY = 2
 PEAK_DRIFT = 3
 PEAK_SHEAR = 4
 PEAK_ROWS = 5
-"""Rows of ``peaks`` (5, N): absolute, relative to the ground, relative to the floor below, N."""
+"""Rows of ``peaks`` (5, S), S as in ``carried``: absolute, relative to the ground, relative to the floor
+below, N.  Column N, where there is one, has the shear on the ground of all frames."""
 
 
 @inner
@@ -57,6 +58,7 @@ def raise_peaks(frame, state, series, n, h, x, peaks):
     c = series.c
     floors = series.floors
     for i in range(1, frame.mass.size):
+        below = frame.below[i - 1]
         for k in range(n):
             c[k] = floors[A, i, k]
         peaks[PEAK_ACCELERATION, i - 1] = raised(c, n - 1, x, peaks[PEAK_ACCELERATION, i - 1])
@@ -67,11 +69,11 @@ def raise_peaks(frame, state, series, n, h, x, peaks):
             c[k] = floors[V, i, k]
         peaks[PEAK_VELOCITY, i - 1] = raised(c, n, x, peaks[PEAK_VELOCITY, i - 1])
         for k in range(n + 1):
-            c[k] = floors[U, i, k] - floors[U, i - 1, k]
+            c[k] = floors[U, i, k] - floors[U, below, k]
         peaks[PEAK_DRIFT, i - 1] = raised(c, n, x, peaks[PEAK_DRIFT, i - 1])
-    for i in range(1, frame.mass.size):
-        storey_shear(frame, series, n, h, i, c)
-        peaks[PEAK_SHEAR, i - 1] = raised(c, n - 1, x, peaks[PEAK_SHEAR, i - 1])
+    for i in range(frame.carried.shape[0]):
+        shear_below(frame, series, n, h, frame.carried[i], c)
+        peaks[PEAK_SHEAR, i] = raised(c, n - 1, x, peaks[PEAK_SHEAR, i])
     tally = state.tally
     for j in range(frame.places.shape[1]):
         if state.mode[PHASE, j] != STICK:
@@ -94,16 +96,17 @@ def raise_peaks(frame, state, series, n, h, x, peaks):
 
 
 @inner
-def storey_shear(frame, series, n, h, storey, c):
-    """Series of the shear (N) below a floor, which carries the inertia of all masses from there up."""
+def shear_below(frame, series, n, h, carried, c):
+    """Series of the shear (N) that carries the inertia of these nodes (N + 1,), plates with them."""
     for k in range(n):
         c[k] = 0.0
-    for i in range(storey, frame.mass.size):
-        for k in range(n):
-            c[k] -= frame.mass[i] * series.floors[A, i, k]
+    for i in range(1, frame.mass.size):
+        if carried[i]:
+            for k in range(n):
+                c[k] -= frame.mass[i] * series.floors[A, i, k]
     for j in range(frame.places.shape[1]):
         upper = frame.places[UPPER, j]
-        if frame.places[KIND, j] == WITH_MASS and upper >= storey:
+        if frame.places[KIND, j] == WITH_MASS and carried[upper]:
             mass = frame.links[MASS, j]
             for k in range(n):
                 c[k] -= mass * (series.floors[A, upper, k] - (k + 1) / h * series.sliders[Z, j, k + 1])
