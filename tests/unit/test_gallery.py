@@ -8,6 +8,8 @@ from matplotlib.text import Text
 from fdspec.errors import InvalidInput
 from fdspec.model.motion import GroundMotion
 from fdspec.records import catalogue, load_record
+from fdspec.report import study_figures
+from fdspec.report.finer import FRAME, Finer
 from fdspec.report.study_figures import (
     RECORD_FIGURES,
     applied_motions,
@@ -15,7 +17,10 @@ from fdspec.report.study_figures import (
     methods_compared,
     study_pictures,
 )
+from fdspec.runs import sweep as sweeping
+from fdspec.runs.simulate import simulate
 from fdspec.units import G
+from fdspec.validation import single_storey_k_braced
 from tests.cubes import synthetic_cube
 
 
@@ -146,3 +151,22 @@ def test_the_names_of_records_and_of_stations_stand_apart(small: bool) -> None:
             for loc in ("left", "right")
         )
         assert not name.get_window_extent().overlaps(station.get_window_extent()), name.get_text()
+
+
+def test_nothing_is_computed_twice(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The contact sheet draws every picture again."""
+    calls = []
+    histories = {"exact": simulate(single_storey_k_braced.building(), load_record("FSR1"), dt_out=0.1)}
+    monkeypatch.setattr(study_figures, "methods_compared", lambda: calls.append("methods") or histories)
+    motions = [load_record("FSR1"), load_record("FMR1")]
+    monkeypatch.setattr(sweeping, "sweep", lambda *_, **__: calls.append("sweep") or cube_of(motions))
+    (fourth,) = [one for one in study_pictures(cube_of(motions)) if one.number == "4"]
+    fourth.draw()
+    fourth.draw_small()
+    assert calls == ["methods"]
+    finer = Finer(cube_of(motions), motions)
+    finer.frame = dict.fromkeys(FRAME, 1.0)
+    for _ in range(2):
+        finer.for_chart()
+        finer.together()
+    assert calls == ["methods", "sweep", "sweep", "sweep"]
