@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
 import numba
 import numpy as np
@@ -10,7 +11,11 @@ import pytest
 from llvmlite.binding import get_host_cpu_features
 from numba import config
 
-from fdspec.compiler.options import fma, inlined, inner, seldom, wide
+from fdspec.compiler import options
+from fdspec.compiler.callees import CalleeLibrary
+from fdspec.compiler.options import entry, fma, inlined, inner, maker, seldom, wide
+
+compiled = pytest.mark.skipif(bool(config.DISABLE_JIT), reason="without the JIT nothing is compiled")
 
 needs_wide_vectors = pytest.mark.skipif(
     bool(config.DISABLE_JIT) or not get_host_cpu_features().get("avx512f"),
@@ -83,3 +88,69 @@ def test_what_is_seldom_needed_is_called_and_not_copied() -> None:
     (code,) = compiled.inspect_llvm().values()
     assert re.search(r"call .*seldom_called", code)
     assert not re.search(r"call .*always_copied", code)
+
+
+@pytest.fixture
+def kept_nowhere(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Compile entries in this process, whatever an earlier one has kept."""
+    monkeypatch.setattr(options, "CACHE", None)
+
+
+def rules() -> tuple[Any, Any, Any]:
+    @inner
+    def twice(x):
+        return 2.0 * x
+
+    @maker
+    def row(x, n):
+        made = np.empty(n)
+        for i in range(n):
+            made[i] = twice(x) + i
+        return made
+
+    @inner
+    def third(row):
+        return row[2]
+
+    return twice, row, third
+
+
+@compiled
+@pytest.mark.usefixtures("kept_nowhere")
+def test_what_an_entry_calls_has_no_machine_code_until_python_calls_it() -> None:
+    twice, row, third = rules()
+
+    @entry(numba.float64(numba.float64))
+    def both(x):
+        return third(row(x, 3))
+
+    assert both(4.0) == 10.0
+    for rule in (twice, row, third):
+        (made,) = rule.overloads.values()
+        assert isinstance(made.library, CalleeLibrary)
+    assert twice(1.5) == 3.0
+    assert twice(1.5) == 3.0
+    np.testing.assert_array_equal(row(1.0, 3), [2.0, 3.0, 4.0])
+    assert third(np.array([5.0, 6.0, 7.0])) == 7.0
+    assert twice(1) == 2.0  # another type, with nothing else at work: code like any other
+    assert not isinstance(twice.overloads[(numba.int64,)].library, CalleeLibrary)
+
+
+@compiled
+@pytest.mark.usefixtures("kept_nowhere")
+def test_entries_share_what_they_call() -> None:
+    twice, row, third = rules()
+
+    @entry(numba.float64(numba.float64))
+    def first(x):
+        return third(row(x, 3))
+
+    library = next(iter(twice.overloads.values())).library
+
+    @entry(numba.float64(numba.float64))
+    def second(x):
+        return third(row(x, 4)) + twice(x)
+
+    assert first(1.0) == 4.0
+    assert second(1.0) == 6.0
+    assert next(iter(twice.overloads.values())).library is library
