@@ -1,6 +1,7 @@
 """Settings of the documentation: pages, notebooks kept as Python files, docstrings, and what is generated."""
 
 import os
+import re
 import sys
 from pathlib import Path
 
@@ -16,6 +17,8 @@ from generated import commands  # beside this file
 
 # Kernels inherit it, and would then keep the figures of pyplot to themselves.
 os.environ.pop("MPLBACKEND", None)
+# A page shows no warning, so that none may be given: the notebook fails.
+os.environ["PYTHONWARNINGS"] = "error::UserWarning"
 
 project = "fdspec"
 author = "fdspec contributors"
@@ -31,6 +34,11 @@ extensions = [
     "sphinx-mathjax-offline",
 ]
 exclude_patterns = ["_build", "conf.py", "generated.py", "jupyter_execute", "notebooks/README.md"]
+
+# What docstrings set apart are formulas; code has its prompt.
+highlight_language = "none"
+# Quotes are made round; -- before an option is not a dash.
+smartquotes_action = "qe"
 
 html_theme = "furo"
 html_title = f"fdspec {release}"
@@ -50,6 +58,8 @@ nb_execution_mode = "force"
 nb_execution_timeout = 3600
 nb_execution_raise_on_error = True
 nb_merge_streams = True
+# Where no kernel is compiled yet, stderr says so; which notebook is the first is chance.
+nb_output_stderr = "remove"
 
 autodoc_member_order = "bysource"
 # Docstrings say what each argument is, with shape and unit; types would spread a signature over a page.
@@ -69,6 +79,8 @@ def setup(app: Sphinx) -> None:
 
 def fill(_: Sphinx, docname: str, source: list[str]) -> None:
     """Put the registry's tables into the page on files, and every command's help into its reference."""
+    if not docname.startswith("notebooks/"):
+        source[0] = kept_together(source[0])
     if docname == "schema":
         for name in ("CUBE", "BUILDING_CUBE", "HISTORY"):
             source[0] = source[0].replace(f"@@{name}@@", table_of(getattr(variables, name)))
@@ -78,13 +90,26 @@ def fill(_: Sphinx, docname: str, source: list[str]) -> None:
         source[0] = source[0].replace("@@COMMANDS@@", commands())
 
 
+def kept_together(text: str) -> str:
+    """Part no number from its unit or its thousands at the end of a line; code stays as it is written."""
+    parts = re.split(r"(^```.*?^```$|`[^`\n]*`)", text, flags=re.MULTILINE | re.DOTALL)
+    within = r"(?<=\d) (?=(?:\d{3}|%|kN|MN|mm|ms|kg|s|g)(?!\w))"
+    parts[::2] = [re.sub(within, "\u00a0", part) for part in parts[::2]]
+    return "".join(parts)
+
+
 def table_of(registry: variables.Registry) -> str:
     """Return a registry as a table of Markdown."""
     rows = [
-        f"| `{one.name}` | {', '.join(one.dims) or '-'} | {one.units or '-'} | {one.dtype} | {meaning(one)} |"
+        f"| `{one.name}` | {over(one)} | {one.units or '-'} | {one.dtype} | {meaning(one)} |"
         for one in registry.values()
     ]
     return "\n".join(["| name | over | units | type | meaning |", "|---|---|---|---|---|", *rows])
+
+
+def over(variable: variables.Variable) -> str:
+    """Return the dims; most variables have all that there are, which the page says before the table."""
+    return "all dims" if len(variable.dims) >= 4 else ", ".join(variable.dims) or "-"
 
 
 def meaning(variable: variables.Variable) -> str:

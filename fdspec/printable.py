@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import textwrap
 from typing import Final
 
 UNSAFE: Final = re.compile(
@@ -14,6 +15,29 @@ UNSAFE: Final = re.compile(
 
 LONG: Final = re.compile(r"(?<![\w.])\d+\.\d+(?:[eE][+-]?\d+)?(?![\w.]*\w)")
 """A number with a decimal point that stands alone: not part of a version, a name or a checksum."""
+
+
+UNPARTED: Final = re.compile(r"(?<=\d) (?=(?:\d{3}|%|kN|MN|mm|kg|m/s2|ms|s|g|t)(?!\w))")
+"""Between a number and its unit, or its own thousands."""
+
+
+def lines_of(text: str, width: int, *, first: str = "", rest: str = "") -> list[str]:
+    """Return running text in lines; `first` and `rest` begin them, and no number is parted from its unit.
+
+    Examples
+    --------
+    >>> lines_of("the response is within 5 % of it", 24)
+    ['the response is within', '5 % of it']
+    """
+    lines = textwrap.wrap(
+        UNPARTED.sub("\u00a0", text),
+        width,
+        initial_indent=first,
+        subsequent_indent=rest,
+        break_on_hyphens=False,
+        break_long_words=False,
+    )
+    return [line.replace("\u00a0", " ") for line in lines]
 
 
 def in_words(name: str) -> str:

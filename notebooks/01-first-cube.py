@@ -23,10 +23,12 @@ import tempfile
 from pathlib import Path
 
 import matplotlib.pyplot as plt
+import xarray as xr
 
 import fdspec
 from fdspec.figures import plot_sketch
 
+_ = xr.set_options(display_expand_data=False)  # what is in a cube, not its numbers
 plot_sketch()
 
 # %% [markdown]
@@ -38,7 +40,7 @@ plot_sketch()
 # %%
 motion = fdspec.load_record("FSR1")
 print(motion.source)
-print(f"{motion.n} samples, {motion.dt} s apart, peak {motion.pga:.2f} m/s2, {motion.history[0]}")
+print(f"{motion.n} samples, {motion.dt} s apart, peak {motion.pga:.2f} m/s2, times {motion.scale_factor:.3g}")
 
 # %% [markdown]
 # Units are SI: pretension in newtons, period in seconds. The period is that of the frame without its

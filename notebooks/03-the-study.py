@@ -54,7 +54,8 @@ study = fdspec.Study()
 axes = {name: getattr(study.grid, name) for name in ("stiffness_ratio", "pretension", "period")}
 cube = fdspec.sweep(study.motions(), **axes)
 assert (cube.status == 0).all()
-print(dict(cube.sizes), f"largest energy error {cube.energy_error.max().item():.0e} of the input")
+print(" x ".join(f"{size} {name}" for name, size in cube.sizes.items()))
+print(f"largest energy error {cube.energy_error.max().item():.0e} of the input")
 pd.DataFrame({name: cube[name].values for name in ("event", "station", "scale_factor")}, cube.record.values)
 
 # %% [markdown]
@@ -134,8 +135,8 @@ pd.DataFrame(
 # past the optimum, four of five pairs of periods and more do so, and for two records nine of ten.
 #
 # **(e) At stiffness ratios 8 and 10, to 0.6 s and 100 to 300 kN, the response is low**: in part. It is
-# below that of the free frame in 56 to 100 % of the cells, and below that of the braced frame in 45 to 91
-# %. Of the grid's pretensions only 110 and 210 kN lie in the range. Records differ much (FHR1 holds both
+# below that of the free frame in 56 to 100 % of the cells, and below that of the braced frame in 45 to
+# 91 %. Of the grid's pretensions only 110 and 210 kN lie in the range. Records differ much (FHR1 holds both
 # ways, FMR3 barely), so the study's own may decide otherwise.
 #
 # **(f) The reduction is independent of period**: does not hold for any record. Against the free frame,

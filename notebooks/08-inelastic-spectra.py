@@ -60,8 +60,8 @@ ductility = bilinear_peaks(oscillator, period, strength, motion)[:, 0] * (2 * np
 
 figure, axis = plt.subplots(figsize=(7, 3.6), layout="constrained")
 axis.semilogx(strength / 9.80665, ductility, color="#0072B2")
-axis.xaxis.set_major_formatter("{x:g}")
-axis.xaxis.set_minor_formatter("{x:.2g}")
+axis.set_xticks([0.03, 0.05, 0.1, 0.2], ["0.03", "0.05", "0.1", "0.2"])
+axis.set_xticks([], minor=True)
 axis.axhline(target, color="0.4", linewidth=0.8, linestyle="--")
 roots = cell.root_strength.values[np.isfinite(cell.root_strength.values)]
 axis.plot(roots / 9.80665, np.full(roots.size, target), "o", color="#D55E00")

@@ -19,6 +19,7 @@
 
 # %%
 import tempfile
+import textwrap
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -92,7 +93,7 @@ choice = fdspec.choose(
     stiffness_scale=[1],
 )
 for head, sentence in report.findings.recommendation(choice)[:5]:
-    print(f"{head:12}{sentence}")
+    print(textwrap.fill(f"{head:12}{sentence}", 100, subsequent_indent=12 * " "))
 
 # %% [markdown]
 # Less friction lets the frame drift further than the limit, more is not needed. The index, here the peak

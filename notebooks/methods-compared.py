@@ -18,6 +18,7 @@
 # arguments and give the same variables as the exact engine, so that one can subtract.
 
 # %%
+import textwrap
 from time import perf_counter
 
 import matplotlib.pyplot as plt
@@ -36,7 +37,7 @@ from fdspec.methods import (
 )
 
 for name, method in METHODS.items():
-    print(f"{name:18s} {method.__doc__.splitlines()[0]}")
+    print(textwrap.fill(f"{name:18s} {method.__doc__.splitlines()[0]}", 100, subsequent_indent=19 * " "))
 
 # %% [markdown]
 # ## Figure 4, redone
@@ -60,11 +61,11 @@ plot_brace_displacements(histories, title="displacement of the additional frame"
 # %%
 exact = histories["exact"]
 scale = float(abs(exact.brace_displacement).max())
-print(f"{'':45s} error over peak of the additional frame  error in the frame's peak acceleration")
+print(f"{'error over the peak of':45s} {'additional frame':>18s} {'frame, acceleration':>22s}")
 for name, history in histories.items():
     off = float(abs(history.brace_displacement - exact.brace_displacement).max()) / scale
     peak = float(history.peak_acceleration[0] / exact.peak_acceleration[0]) - 1.0
-    print(f"{name:45s} {off:40.2%} {peak:+39.3%}")
+    print(f"{name:45s} {off:18.2%} {peak:+22.3%}")
 
 # %% [markdown]
 # ## Error against cost, over a grid

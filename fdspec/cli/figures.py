@@ -206,6 +206,11 @@ def _file_name(name: str) -> str:
 def _encoded(figure: Figure, kinds: Sequence[str], author: str) -> dict[str, bytes]:
     from fdspec.figures import encode
 
+    # The place of everything, solved once, serves every kind: it takes as long as drawing.
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        engine.execute(figure)
+        figure.set_layout_engine("none")
     return {kind: encode(figure, kind, author=author) for kind in kinds}
 
 

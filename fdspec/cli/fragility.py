@@ -101,7 +101,7 @@ def _for_people(numbers: Any, shown: xr.Dataset) -> str:
 def _segments(rates: xr.Dataset) -> str:
     """Return which intensities the rate comes from."""
     rows = [
-        [f"{row.segment_from:.4g}", f"{row.segment_to:.4g}", f"{row.deaggregation:.1%}"]
+        [f"{row.segment_from:.4g}", f"{row.segment_to:.4g}", f"{100.0 * row.deaggregation:.1f} %"]
         for _, row in rates["deaggregation"].squeeze().to_dataframe().iterrows()
     ]
     return aligned(["intensity from", "to", "share of the rate"], rows)

@@ -145,7 +145,7 @@ def _best(name: str, band: xr.Dataset) -> list[tuple[str, list[str]]]:
     return [
         (f"{name}: kN", told(best["pretension"].values / 1e3, "{:.4g}")),
         ("SR", told(best["stiffness_ratio"].values, "{:.3g}")),
-        ("share", told(best["acceleration_ratio"].values, "{:.0%}")),
+        ("share", told(100.0 * best["acceleration_ratio"].values, "{:.0f} %")),
     ]
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 import shutil
 import sys
-import textwrap
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Final
 
 from fdspec.cli.echo import END, MARKS
+from fdspec.printable import lines_of
 
 READABLE: Final = 110
 """Letters in a line of running text, at most: longer ones are hard to follow."""
@@ -42,14 +42,7 @@ def text_width() -> int:
 
 def filled(text: str, *, first: str = "", rest: str = "") -> str:
     """Return running text in lines that fit; `first` and `rest` begin the lines."""
-    return textwrap.fill(
-        text,
-        text_width(),
-        initial_indent=first,
-        subsequent_indent=rest,
-        break_on_hyphens=False,
-        break_long_words=False,
-    )
+    return "\n".join(lines_of(text, text_width(), first=first, rest=rest))
 
 
 def table(
@@ -98,7 +91,7 @@ def _blocks(widths: Sequence[int], width: int) -> list[list[int]]:
 def _folded(lines: Sequence[Sequence[str]], room: int) -> list[list[str]]:
     folded = []
     for line in lines:
-        parts = textwrap.wrap(line[-1], room, break_on_hyphens=False) or [""]
+        parts = lines_of(line[-1], room) or [""]
         folded.append([*line[:-1], parts[0]])
         folded += [[*([""] * (len(line) - 1)), part] for part in parts[1:]]
     return folded

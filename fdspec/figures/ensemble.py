@@ -66,7 +66,7 @@ def plot_histories(
     columns = min(COLUMNS, len(motions))
     rows = math.ceil(len(motions) / columns)
     width = max(6.5, 4.2 * columns)
-    figure = Figure(figsize=(width, 1.4 + 2.0 * rows), layout="constrained", dpi=150)
+    figure = Figure(figsize=(width, 1.4 + 2.15 * rows), layout="constrained", dpi=150)
     axes = figure.subplots(rows, columns, sharey=True, squeeze=False)
     longest = max(motion.duration for motion in motions)
     for axis in axes.flat[len(motions) :]:
@@ -90,7 +90,7 @@ def plot_spectra(
     spectra: xr.Dataset,
     *,
     quantity: str = "absolute_acceleration",
-    title: str = "",
+    title: str | None = None,
     note: str = "",
     caption: str = "",
     labels: Mapping[str, str] | None = None,
@@ -143,7 +143,7 @@ def plot_spectra(
     what = quantity.replace("_", " ")
     axes[0].set_ylabel(f"peak {what}, g")
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside right center", frameon=False)
-    _head(figure, title or f"Elastic spectra of {what}", note, width)
+    _head(figure, f"Elastic spectra of {what}" if title is None else title, note, width)
     add_caption(figure, caption)
     return figure
 
@@ -155,7 +155,8 @@ def _history(axis: Axes, motion: GroundMotion, colour: str) -> None:
     axis.plot(motion.time[peak], samples[peak], "o", color="black", markersize=3, zorder=5)
     axis.axhline(0.0, color="0.6", linewidth=0.4, zorder=1)
     axis.set_title(motion.name, loc="left", fontsize="medium", fontweight="bold")
-    axis.set_title(", ".join(filter(None, (motion.event, motion.station))), loc="right", fontsize="x-small")
+    # In two lines, so that a long name leaves the motion's alone in print too.
+    axis.set_title(",\n".join(filter(None, (motion.event, motion.station))), loc="right", fontsize="small")
     axis.text(0.985, 0.94, f"{motion.pga / G:.3f} g", transform=axis.transAxes, ha="right", va="top")
 
 

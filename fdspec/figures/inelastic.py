@@ -120,7 +120,7 @@ def plot_fragility(fit: xr.Dataset, *, confidence: float = 0.9, title: str = "",
         color=LINES[0],
         alpha=0.18,
         linewidth=0,
-        label=f"{confidence:.0%} band",
+        label=f"{100.0 * confidence:.0f} % band",
     )
     spread = float(fit["dispersion"])
     axis.plot(x, curve["probability"], color=LINES[0], label=f"median {median:.3g}, dispersion {spread:.2f}")
@@ -165,7 +165,7 @@ def plot_ida(curves: xr.Dataset, *, limit: float | None = None, title: str = "",
     for k, fractile in enumerate(curves["fractile"].values):
         values = _finite(curves["fractile_demand"].sel(fractile=fractile).values)
         style = "-" if fractile == 0.5 else "--"
-        axis.plot(values, intensity, style, color=LINES[k], linewidth=2.0, label=f"{fractile:.0%}")
+        axis.plot(values, intensity, style, color=LINES[k], linewidth=2.0, label=f"{100.0 * fractile:.0f} %")
     if limit is not None:
         axis.axvline(limit, color="0.3", linewidth=0.8, linestyle=":", label="limit")
     unit = str(curves["fractile_demand"].attrs.get("units", "1"))

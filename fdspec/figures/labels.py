@@ -19,6 +19,28 @@ MEASURES: Final = {
 POWERS: Final = {"^2": "²", "^3": "³"}
 
 
+SUPERSCRIPTS: Final = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def plain(value: float) -> str:
+    """Return a number in two digits as people write it.
+
+    Examples
+    --------
+    >>> plain(0.57), plain(9.33e-05), plain(7020.0)
+    ('0.57', '9.3 × 10⁻⁵', '7000')
+    """
+    number, _, power = f"{value:.2g}".partition("e")
+    if not power:
+        return number
+    whole = int(power)
+    return (
+        f"{float(number) * 10**whole:.0f}"
+        if whole > 0
+        else f"{number} × 10{str(whole).translate(SUPERSCRIPTS)}"
+    )
+
+
 def axis_label(name: str, unit: str = "1") -> str:
     """Return what stands at an axis: words, and the unit where there is one.
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Final
 
+import matplotlib as mpl
 import numpy as np
 
 from fdspec.errors import InvalidInput
 from fdspec.figures.caption import add_caption
+from fdspec.figures.labels import plain
 from fdspec.figures.page import Figure
 from fdspec.figures.storeys import BRACE, FLOOR, FloatArray
 
@@ -21,9 +23,6 @@ BARE = "0.55"
 ERRORS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#595959")
 DASHES: Final = ("-", "--", ":")
 """Of the errors' lines: Okabe and Ito's palette, which colour-blind eyes can tell apart, and dashes."""
-
-MANY: Final = 4
-"""Other methods from which on their names have a place of their own."""
 
 OFF: Final = "how far each is off the exact one, largest so far"
 
@@ -126,7 +125,7 @@ def plot_brace_displacements(
     reach = 1.25 * float(np.abs(exact[time <= end]).max(initial=0.0))
     others = len(histories) - 1
     heights = [1.0] * len(histories) + ([3.2] if others else [])
-    figure = Figure(figsize=(9.0, max(2.9, 0.9 + 0.86 * sum(heights))), layout="constrained", dpi=150)
+    figure = Figure(figsize=(9.0, max(2.9, 1.4 + 0.86 * sum(heights))), layout="constrained", dpi=150)
     axes = figure.subplots(len(heights), sharex=True, squeeze=False, height_ratios=heights)[:, 0]
     for k, (axis, (name, history)) in enumerate(zip(axes, histories.items(), strict=False)):
         at = history["time"].values
@@ -136,7 +135,7 @@ def plot_brace_displacements(
         if name != first:
             axis.plot(time, exact, color="0.75", linewidth=1.6)
             apart = np.abs(drawn - np.interp(at, time, exact))
-            told = f"{told}, off by up to {apart[shown].max():.2g} mm"
+            told = f"{told}, off by up to {plain(apart[shown].max())} mm"
             _error(axes[-1], at, apart, name, k - 1)
         axis.plot(at, drawn, color=FLOOR if name == first else BRACE, linewidth=0.7)
         axis.set_title(told, loc="left", fontsize="small", pad=2)
@@ -151,9 +150,15 @@ def plot_brace_displacements(
         axes[-1].set_ylabel("off by, mm")
         axes[-1].grid(visible=True, color="0.92", linewidth=0.5)
         axes[-1].set_title(OFF, loc="left", fontsize="small", pad=2)
-        # Between the methods that solve the same equations and those that do not there is room.
-        place = {"loc": "center", "bbox_to_anchor": (0.63, 0.42)} if others > MANY else {"loc": "best"}
-        axes[-1].legend(ncols=2, frameon=False, fontsize="x-small", **place)
+        # Below the numbers and the name of the axis, which take three lines and a half.
+        axes[-1].legend(
+            loc="upper center",
+            bbox_to_anchor=(0.5, 0.0),
+            borderaxespad=3.9,
+            ncols=3 if mpl.rcParams["font.size"] <= 10.0 else 2,
+            frameon=False,
+            fontsize="small",
+        )
     if title:
         figure.suptitle(title, fontsize="medium")
     add_caption(figure, caption)

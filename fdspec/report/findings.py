@@ -232,7 +232,9 @@ def limits(choice: xr.Dataset) -> str:
     chosen = float(choice["pretension"].sum())
     if has_limits(choice):
         one = target_of(choice).worst
-        return f"{SHOWN[one.name].words} at level {one.level:g}, {one.value / one.limit:.0%} of its limit"
+        return (
+            f"{SHOWN[one.name].words} at level {one.level:g}, {percent(one.value / one.limit)} of its limit"
+        )
     if chosen == 0.0:
         return "no friction is best: every pretension tried makes it worse than a brace that slides freely"
     if float(choice["index"].sel(case="braced")) <= float(choice["index"].sel(case="chosen")):

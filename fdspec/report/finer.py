@@ -61,6 +61,7 @@ class Finer:
         shown = [ratio for ratio in ratios if np.isclose(ratio, STUDY_PANELS).any()]
         self.ratios = shown or list(ratios)
         self._made: dict[str, xr.Dataset] = {}
+        self._charted: xr.Dataset | None = None
 
     @property
     def able(self) -> bool:
@@ -94,6 +95,11 @@ class Finer:
 
     def for_chart(self) -> xr.Dataset:
         """Return the records scaled to a PGA of 1 g, at few periods, over shares of floor mass times PGA."""
+        if self._charted is None:
+            self._charted = self._swept_for_chart()
+        return self._charted
+
+    def _swept_for_chart(self) -> xr.Dataset:
         from fdspec.runs.sweep import sweep
 
         per_newton = self.frame["friction_coefficient"] * self.frame["normal_force_factor"]

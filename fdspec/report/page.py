@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import base64
 import re
 from collections.abc import Sequence
 from html import escape
 from typing import TYPE_CHECKING, Final
+from urllib.parse import quote
 
 from fdspec.choice.bench import Bench, without_braces
 from fdspec.choice.targets import target_of
@@ -21,6 +21,7 @@ from fdspec.figures import (
 )
 from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
+from fdspec.report.compact_svg import compact
 from fdspec.report.findings import (
     CASES,
     assumptions,
@@ -212,10 +213,10 @@ def _words(sentence: str) -> str:
 
 
 def _picture(figure: Figure, alternative: str, caption: str) -> str:
-    data = base64.b64encode(encode(figure, "svg")).decode("ascii")
+    data = quote(compact(encode(figure, "svg").decode("utf-8")))
     return (
         f'<figure><div class="wide" role="region" aria-label="{escape(caption)}" tabindex="0">'
-        f'<img alt="{escape(alternative)}" src="data:image/svg+xml;base64,{data}"></div>'
+        f'<img alt="{escape(alternative)}" src="data:image/svg+xml,{data}"></div>'
         f"<figcaption>{escape(caption)}</figcaption></figure>"
     )
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -130,7 +131,8 @@ def study_pictures(cube: xr.Dataset, given: Sequence[GroundMotion] = ()) -> list
     list of Picture
         4 and 6, the validation problems, and 7, the frame with its damper, which need no cube; 8 and 9, of
         those records of the cube that are found; one a record, 10 to 18 for those of the study; the ensemble
-        and the chart, of two records that are found or more. Nothing is drawn or computed before `draw`.
+        and the chart, of two records that are found or more. Nothing is drawn or computed before `draw`,
+        and nothing computed twice, however often a picture is drawn.
         Records that are found are drawn on pretensions close together, which are computed for the picture,
         others on the cube's.
     """
@@ -208,7 +210,7 @@ def methods_compared() -> dict[str, xr.Dataset]:
 
     named: dict[str, str | methods.Method] = {
         "exact": methods.EXACT,
-        "the study's scheme (Newmark), step 1e-5 s": methods.Newmark(dt=1e-5),
+        "the study's scheme (Newmark), step 10⁻⁵ s": methods.Newmark(dt=1e-5),
         **{
             f"Dimova, linear within {band:g} m/s": methods.Dimova(velocity_band=band)
             for band in (0.001, 0.005, 0.01)
@@ -228,10 +230,12 @@ def methods_compared() -> dict[str, xr.Dataset]:
 def _figure_4() -> Picture:
     from fdspec.validation import kalamata, single_storey_k_braced
 
+    solved = cache(methods_compared)
+
     def make(title: str, caption: str) -> Figure:
         from fdspec.figures import plot_brace_displacements
 
-        return plot_brace_displacements(methods_compared(), title=title, caption=caption, end=SHOWN)
+        return plot_brace_displacements(solved(), title=title, caption=caption, end=SHOWN)
 
     words = (
         "Displacement of the additional frame relative to the ground by every method for friction, each over "
@@ -246,11 +250,12 @@ def _figure_4() -> Picture:
 def _figure_6() -> Picture:
     from fdspec.validation import four_storey, kalamata
 
+    solved = cache(four_storey.solve)
+
     def make(title: str, caption: str) -> Figure:
         from fdspec.figures import plot_bare_and_damped
 
-        pair = four_storey.solve()
-        return plot_bare_and_damped(*pair, title=title, caption=caption, end=SHOWN_FOUR)
+        return plot_bare_and_damped(*solved(), title=title, caption=caption, end=SHOWN_FOUR)
 
     words = (
         "Displacement of the floors relative to the ground. First period 1.006 s bare and 0.612 s braced, "

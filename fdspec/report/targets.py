@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from fdspec.choice.targets import Target, target_of
-from fdspec.report.numbers import kilonewtons, rounded
+from fdspec.report.numbers import kilonewtons, percent, rounded
 from fdspec.units import G
 
 if TYPE_CHECKING:
@@ -52,7 +52,8 @@ def missed(target: Target) -> str:
     worst = target.worst
     shown = SHOWN[worst.name]
     return (
-        f"{shown.words} at level {worst.level:g} is over its limit by {worst.value / worst.limit - 1.0:.1%} "
+        f"{shown.words} at level {worst.level:g} is over its limit by "
+        f"{100.0 * (worst.value / worst.limit - 1.0):.1f} % "
         f"at best, {shown.written(worst.value)} of {shown.written(worst.limit)}"
     )
 
@@ -89,7 +90,7 @@ def limit_rows(target: Target) -> list[list[str]]:
             SHOWN[one.name].words,
             SHOWN[one.name].written(one.value),
             SHOWN[one.name].written(one.limit),
-            f"{one.value / one.limit:.0%}",
+            percent(one.value / one.limit),
         ]
         for one in target.demands
     ]

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import textwrap
 from typing import TYPE_CHECKING, Final
 
+from fdspec.printable import lines_of
 from fdspec.report.findings import CASES, assumptions, recommendation
 from fdspec.report.inputs import structure
 from fdspec.report.rows import record_rows
@@ -37,13 +37,7 @@ def text(choice: xr.Dataset, *, width: int = WIDTH) -> str:
     lines = [
         line
         for head, sentence in told
-        for line in textwrap.wrap(
-            sentence,
-            width,
-            initial_indent=head.ljust(indent),
-            subsequent_indent=" " * indent,
-            break_on_hyphens=False,
-        )
+        for line in lines_of(sentence, width, first=head.ljust(indent), rest=" " * indent)
     ]
     if choice.sizes["storey"] > 1:
         head, rows = storey_rows(choice)
@@ -51,12 +45,10 @@ def text(choice: xr.Dataset, *, width: int = WIDTH) -> str:
     head, rows = record_rows(choice)
     lines += ["", *_table([head, *rows], width), ""]
     explained = f"Accelerations in g, drifts in mm. lower, upper: {CASES['lower']}, {CASES['upper']}."
-    lines += [*textwrap.wrap(explained, width), ""]
+    lines += [*lines_of(explained, width), ""]
     lines.append("Assumed:")
     for sentence in assumptions(choice):
-        lines += textwrap.wrap(
-            sentence, width, initial_indent="- ", subsequent_indent="  ", break_on_hyphens=False
-        )
+        lines += lines_of(sentence, width, first="- ", rest="  ")
     return "\n".join(lines)
 
 

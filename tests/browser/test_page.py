@@ -524,6 +524,13 @@ def test_the_layout_at_three_widths_light_and_dark(
     boxes = [locator.bounding_box() for locator in page.locator("figure, #controls, header").all()]
     right = max(box["x"] + box["width"] for box in boxes if box)
     assert width - 40 <= right <= width  # nothing sticks out, and nothing stays empty
+    ends: dict[float, float] = {}
+    for figure in page.locator("main figure").all():
+        box = figure.bounding_box()
+        assert box is not None
+        ends[box["y"]] = max(ends.get(box["y"], 0.0), box["x"] + box["width"])
+    if width != 1440:  # there two stand in a row, and the last of an odd number alone
+        assert min(ends.values()) >= width - 40
     slider, surface = page.locator("#turn").bounding_box(), page.locator("#surface-0").bounding_box()
     assert slider is not None
     assert surface is not None
@@ -531,6 +538,21 @@ def test_the_layout_at_three_widths_light_and_dark(
     found = Axe().run(page)
     assert found.violations_count == 0, found.generate_report()
     context.close()
+
+
+def test_pictures_fill_their_cards_when_others_come_and_go(wide: Watched, address: str) -> None:
+    page = wide.open(address)
+    page.set_viewport_size({"width": 2560, "height": 1200})
+    for other in ("FMR1", "no other"):
+        page.select_option("#compare", label=other)
+        wide.settled()
+        widths = page.evaluate(
+            "[...document.querySelectorAll('#curves .plot')]"
+            ".map((plot) => [plot.clientWidth, plot.querySelector('.main-svg').clientWidth])"
+        )
+        assert len(widths) == (5 if other == "FMR1" else 4)
+        for card, picture in widths:
+            assert picture == pytest.approx(card, abs=1)
 
 
 def test_the_page_prints_whole_on_a4(wide: Watched, address: str, tmp_path: Path) -> None:

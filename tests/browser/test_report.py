@@ -1,18 +1,23 @@
 """The report of `fdspec choose` as a client sees it: on screens of three widths, and printed on A4."""
 
+import io
 import re
 import subprocess
 from dataclasses import replace
 from html import unescape
 from pathlib import Path
 
+import numpy as np
 import pytest
 from axe_playwright_python.sync_playwright import Axe
+from PIL import Image
 from playwright.sync_api import Browser
 
 import fdspec
+from fdspec.figures import encode, plot_history
 from fdspec.model.building import Building
 from fdspec.report import page as report_page
+from fdspec.report.compact_svg import compact
 
 pytestmark = pytest.mark.browser
 
@@ -110,3 +115,20 @@ def test_tables_stand_whole_on_a_page(printed: Path) -> None:
 def test_pictures_are_vectors(printed: Path) -> None:
     listed = subprocess.run(["pdfimages", "-list", str(printed)], check=True, capture_output=True, text=True)
     assert listed.stdout.strip().splitlines()[2:] == []
+
+
+def test_a_picture_in_fewer_bytes_looks_the_same(browser: Browser) -> None:
+    frame = fdspec.Building.single_storey(period=0.5, stiffness_ratio=4, slip_force=20e3)
+    svg = encode(plot_history(fdspec.simulate(frame, fdspec.load_record("FMR1")), 1), "svg").decode()
+    # 384 dots an inch: more than half of what it is printed with.
+    tab = browser.new_page(viewport={"width": 1060, "height": 640}, device_scale_factor=4)
+    seen = []
+    for one in (svg, compact(svg)):
+        tab.set_content(one[one.index("<svg") :])
+        seen.append(np.asarray(Image.open(io.BytesIO(tab.screenshot())).convert("L"), dtype=float))
+    tab.close()
+    apart = seen[0] - seen[1]
+    assert seen[0].std() > 10.0
+    # Edges may be a shade lighter; as far as the eye sees, 1/96 in, nothing is.
+    assert (np.abs(apart) > 32.0).mean() < 2e-3
+    assert np.abs(apart.reshape(640, 4, 1060, 4).mean(axis=(1, 3))).max() < 32.0

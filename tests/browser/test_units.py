@@ -152,3 +152,21 @@ def test_long_numbers_leave_the_names_of_axes_alone(
     page = watched.open(f"{address}#force=N&length=m&acceleration=%25g&index=reduction_to_bare")
     assert page.evaluate(OVERLAPS) == []
     assert page.locator("#force-value").inner_text() == "110\u202f000\xa0N"
+
+
+@pytest.mark.parametrize("force", ["kN", "N"])
+def test_surface_and_map_carry_the_same_numbers(wide: Watched, address: str, force: str) -> None:
+    page = wide.open(f"{address}#force={force}")
+    told = """([card, of]) => {
+        const layout = document.querySelector(`#${card} .plot`)._fullLayout;
+        const scene = of ? layout[of]._scene.fullSceneLayout : layout;
+        return [scene.xaxis, scene.yaxis].map((one) => ({
+            step: one.dtick, first: one.tick0, range: one.range,
+            form: [one.exponentformat, one.separatethousands],
+        }));
+    }"""
+    on_map = page.evaluate(told, ["map-0", ""])
+    in_space = page.evaluate(told, ["surface-0", "scene"])
+    for one, other in zip(in_space, on_map, strict=True):
+        assert one == {**other, "range": pytest.approx(other["range"])}
+    assert on_map[1]["form"] == ["none", True]

@@ -1,6 +1,7 @@
 """What the documentation generates: every command and option has its place, and no clock fails a build."""
 
 import importlib.util
+import re
 from pathlib import Path
 from types import ModuleType
 
@@ -55,3 +56,17 @@ def test_pages_assume_no_published_package() -> None:
     for path in [*DOCS.glob("*.md"), *DOCS.glob("howto/*.md")]:
         if path.name != "records.md":
             assert "pip install 'fdspec" not in path.read_text(encoding="utf-8"), path.name
+
+
+def test_no_line_of_prose_begins_with_a_per_cent_sign() -> None:
+    """To MyST it is a comment, and the rest of the sentence is gone from the page."""
+    pages = dict.fromkeys([*DOCS.rglob("*.md"), *DOCS.parent.glob("*.md")], r"^\s*%")
+    notebooks = dict.fromkeys((DOCS.parent / "notebooks").glob("*.py"), r"^#\s+%(?!%)")
+    found = [
+        f"{path.name}: {line}"
+        for path, comment in (pages | notebooks).items()
+        if "_build" not in path.parts
+        for line in path.read_text(encoding="utf-8").splitlines()
+        if re.match(comment, line)
+    ]
+    assert found == []

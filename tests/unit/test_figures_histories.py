@@ -188,7 +188,7 @@ def test_each_method_is_drawn_over_the_first(history: xr.Dataset) -> None:
     behind, before = band.lines
     assert np.array_equal(behind.get_ydata(), exact.lines[0].get_ydata())
     np.testing.assert_allclose(before.get_ydata(), 1e3 * other["brace_displacement"].sel(storey=1))
-    assert band.get_title(loc="left").endswith("off by up to 7e+03 mm")
+    assert band.get_title(loc="left").endswith("off by up to 7000 mm")
     most = np.abs(1e3 * history["brace_displacement"].sel(storey=1).values[:501]).max()
     assert exact.get_ylim() == band.get_ylim() == (pytest.approx(-1.25 * most), pytest.approx(1.25 * most))
     assert figure.get_supylabel() == "displacement of the brace, mm"

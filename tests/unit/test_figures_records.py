@@ -139,7 +139,7 @@ def test_a_panel_a_history_on_one_scale(motions) -> None:
         np.testing.assert_allclose(axis.lines[0].get_ydata(), motion.acceleration / G, rtol=1e-15)
         assert abs(axis.lines[1].get_ydata()[0]) == pytest.approx(motion.pga / G, rel=1e-15)
         assert [text.get_text() for text in axis.texts] == [f"{motion.pga / G:.3f} g"]
-        assert axis.get_title(loc="right") == f"Somewhere 2001, {motion.station}"
+        assert axis.get_title(loc="right") == f"Somewhere 2001,\n{motion.station}"
 
 
 def test_axes_of_histories_are_named_at_the_edge(motions) -> None:

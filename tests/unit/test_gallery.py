@@ -3,10 +3,13 @@
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.text import Text
 
 from fdspec.errors import InvalidInput
 from fdspec.model.motion import GroundMotion
 from fdspec.records import catalogue, load_record
+from fdspec.report import study_figures
+from fdspec.report.finer import FRAME, Finer
 from fdspec.report.study_figures import (
     RECORD_FIGURES,
     applied_motions,
@@ -14,7 +17,10 @@ from fdspec.report.study_figures import (
     methods_compared,
     study_pictures,
 )
+from fdspec.runs import sweep as sweeping
+from fdspec.runs.simulate import simulate
 from fdspec.units import G
+from fdspec.validation import single_storey_k_braced
 from tests.cubes import synthetic_cube
 
 
@@ -120,3 +126,47 @@ def test_every_method_follows_the_exact_displacement_as_far_as_its_model_goes() 
     bands = [off[f"Dimova, linear within {band:g} m/s"] for band in (0.001, 0.005, 0.01)]
     assert bands == sorted(bands)
     assert off["rigid-plastic"] == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("number", ["8", "9"])
+def test_in_print_no_letter_is_smaller_than_seven_points_and_no_title_is_drawn(number: str) -> None:
+    motions = [load_record(name) for name in RECORD_FIGURES]
+    (picture,) = [one for one in study_pictures(cube_of(motions)) if one.number == number]
+    figure = picture.draw_print(180.0)
+    figure.draw_without_rendering()
+    sizes = {text.get_text(): text.get_fontsize() for text in figure.findobj(Text) if text.get_text()}
+    assert min(sizes.values()) > 6.99, sizes
+    assert figure.get_suptitle() == ""
+
+
+@pytest.mark.parametrize("small", [False, True])
+def test_the_names_of_records_and_of_stations_stand_apart(small: bool) -> None:
+    motions = [load_record(name) for name in RECORD_FIGURES]
+    (picture,) = [one for one in study_pictures(cube_of(motions)) if one.number == "8"]
+    figure = picture.draw_small() if small else picture.draw_print(180.0)
+    figure.draw_without_rendering()
+    for axis in figure.axes:
+        name, station = (
+            next(text for text in axis.findobj(Text) if text.get_text() == axis.get_title(loc))
+            for loc in ("left", "right")
+        )
+        assert not name.get_window_extent().overlaps(station.get_window_extent()), name.get_text()
+
+
+def test_nothing_is_computed_twice(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The contact sheet draws every picture again."""
+    calls = []
+    histories = {"exact": simulate(single_storey_k_braced.building(), load_record("FSR1"), dt_out=0.1)}
+    monkeypatch.setattr(study_figures, "methods_compared", lambda: calls.append("methods") or histories)
+    motions = [load_record("FSR1"), load_record("FMR1")]
+    monkeypatch.setattr(sweeping, "sweep", lambda *_, **__: calls.append("sweep") or cube_of(motions))
+    (fourth,) = [one for one in study_pictures(cube_of(motions)) if one.number == "4"]
+    fourth.draw()
+    fourth.draw_small()
+    assert calls == ["methods"]
+    finer = Finer(cube_of(motions), motions)
+    finer.frame = dict.fromkeys(FRAME, 1.0)
+    for _ in range(2):
+        finer.for_chart()
+        finer.together()
+    assert calls == ["methods", "sweep", "sweep", "sweep"]

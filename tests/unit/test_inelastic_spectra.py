@@ -173,9 +173,9 @@ def test_pictures(motion, constant_ductility):
     assert plot_fragility(fit).axes[0].get_title() == "peak drift beyond 0.02 m"
     curves = plot_ida(ida_curves(_random_cube(2), demand="peak_drift"), limit=0.02)
     assert [text.get_text() for text in curves.axes[0].get_legend().get_texts()] == [
-        "16%",
-        "50%",
-        "84%",
+        "16 %",
+        "50 %",
+        "84 %",
         "limit",
     ]
     assert math.isclose(curves.axes[0].get_ylim()[1], 3.0)

@@ -156,7 +156,7 @@ def test_limits_in_file_page_and_json(limit: str, tmp_path: Path, capsys: pytest
         assert "It is the least that meets all limits" in page
         assert choice["band_slip_force"].values[0, 0] == force == choice["slip_force"].item()
     else:
-        over = f"{target.worst.value / target.worst.limit - 1.0:.1%}"
+        over = f"{100.0 * (target.worst.value / target.worst.limit - 1.0):.1f} %"
         assert f"is over its limit by {over} at best" in told
         assert "No slip force meets all limits" in page
         assert np.isnan(choice["band_slip_force"]).all()

@@ -50,8 +50,21 @@ async function draw(picture) {
   const { data, layout: drawn } = made.plot();
   const first = made.drawn === null;
   made.drawn = true;
+  made.width = made.plotted.clientWidth;
   await Plotly.react(made.plotted, data, drawn, CONFIG);
-  if (first) connectPlot(made);
+  if (first) {
+    connectPlot(made);
+    refit();
+  }
+}
+
+// On a wide screen a card more or less changes the width of those that stand already.
+function refit() {
+  for (const made of cards.values()) {
+    if (!made.drawn || made.plotted.clientWidth === made.width) continue;
+    made.width = made.plotted.clientWidth;
+    Plotly.Plots.resize(made.plotted);
+  }
 }
 
 // A click is where the button goes up where it went down: a surface that was turned was not clicked on.
@@ -81,6 +94,7 @@ function discard(id) {
   Plotly.purge(made.plotted);
   made.figure.remove();
   cards.delete(id);
+  refit();
 }
 
 function notice(text) {

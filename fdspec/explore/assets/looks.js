@@ -38,8 +38,13 @@ function layout(more) {
   };
 }
 
+// Numbers at axes and colours: 500 000, never 500k.
+const NUMBERS = { exponentformat: "none", separatethousands: true };
+// As many at a map's axes as at those of its surface, so that both carry the same numbers.
+const TICKS = 6;
+
 function axis(title, more) {
-  return { title: { text: title, standoff: 6 }, gridcolor: LOOK.grid, zeroline: false, automargin: true, exponentformat: "none", separatethousands: true, ticks: "outside", ticklen: 3, ...more };
+  return { title: { text: title, standoff: 6 }, gridcolor: LOOK.grid, zeroline: false, automargin: true, ...NUMBERS, ticks: "outside", ticklen: 3, ...more };
 }
 
 // A long title in lines that fit the height of a picture.

@@ -27,7 +27,7 @@ function contourPlot(s, index, numbers, scale, best) {
       colorscale: coloursOf(index), zmin: scale.low, zmax: scale.high, autocontour: false,
       contours: { start: scale.low, end: scale.high, size: scale.step },
       line: { color: index.neutral === null ? "rgba(255,255,255,0.6)" : "rgba(0,0,0,0.18)", width: 0.5 }, connectgaps: false,
-      colorbar: { title: { text: index.unit, side: "top" }, thickness: 12, len: 1, outlinewidth: 0, x: 1.01, xpad: 2, ...scaleTicks(scale) },
+      colorbar: { title: { text: index.unit, side: "top" }, thickness: 12, len: 1, outlinewidth: 0, x: 1.01, xpad: 2, ...NUMBERS, ...scaleTicks(scale) },
       hovertemplate: `%{x} s, %{y} ${FORCE}<br>%{z:.4g} ${index.unit}<extra></extra>`,
     },
     {
@@ -45,7 +45,7 @@ function contourPlot(s, index, numbers, scale, best) {
   ];
   // White is the middle of two colours: there the line of the best has a dark edge.
   if (index.neutral !== null) data.splice(1, 0, neutralLine(index, data[0]), { ...data[1], mode: "lines", line: { color: "#1b2733", width: 3.5 } });
-  return { data, layout: layout({ xaxis: axis("period without brace, s", { range: ends(AXES.period) }), yaxis: axis(`pretension, ${FORCE}`, { range: ends(AXES.pretension) }) }) };
+  return { data, layout: layout({ xaxis: axis("period without brace, s", { range: ends(AXES.period), nticks: TICKS }), yaxis: axis(`pretension, ${FORCE}`, { range: ends(AXES.pretension), nticks: TICKS }) }) };
 }
 
 // Where a damper begins to harm.
@@ -88,7 +88,7 @@ function surfacePlot(s, index, numbers, scale, best) {
       marker: { symbol: "x", color: "#D55E00", size: 5 },
     },
   ];
-  const side = (title, more) => ({ title: { text: title, font: { ...FONT, size: 11 } }, tickfont: { ...FONT, size: 10 }, gridcolor: LOOK.spaceGrid, showspikes: false, backgroundcolor: LOOK.space, showbackground: true, ...more });
+  const side = (title, more) => ({ title: { text: title, font: { ...FONT, size: 11 } }, tickfont: { ...FONT, size: 10 }, ...NUMBERS, gridcolor: LOOK.spaceGrid, showspikes: false, backgroundcolor: LOOK.space, showbackground: true, ...more });
   return {
     data,
     layout: layout({
@@ -96,7 +96,7 @@ function surfacePlot(s, index, numbers, scale, best) {
       scene: {
         uirevision: "kept", dragmode: TOUCH ? false : "turntable", aspectmode: "manual", aspectratio: { x: 1.25, y: 1, z: 0.7 },
         camera: { eye: eye(s.turn), center: { x: 0, y: 0, z: -0.2 } },
-        xaxis: side("period, s"), yaxis: side(`pretension, ${FORCE}`), zaxis: side(index.unit || "", { range: [scale.low, scale.high] }),
+        xaxis: side("period, s", { range: ends(AXES.period), nticks: TICKS }), yaxis: side(`pretension, ${FORCE}`, { range: ends(AXES.pretension), nticks: TICKS }), zaxis: side(index.unit || "", { range: [scale.low, scale.high] }),
       },
     }),
   };

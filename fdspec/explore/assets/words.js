@@ -40,7 +40,7 @@ function bestWords(s, k, index, numbers) {
   if (!told || !Number.isFinite(told.value)) return of;
   const end = Number.isFinite(told.end) ? `to ${written(told.end, FORCE)}` : "without end";
   return `${of} Between them the best is ${written(told.pretension, FORCE)}: ${written(told.value, index.unit)}, ` +
-    `and the response is at most 5 % above the least from ${written(told.start, FORCE)} ${end}.`;
+    `and the response is at most 5\u00a0% above the least from ${written(told.start, FORCE)} ${end}.`;
 }
 
 function curveWords(s, k, index, numbers) {
@@ -56,7 +56,7 @@ function allWords(s, index, everything) {
 }
 
 function sliceMarks(index) {
-  const marks = index.best === "least" ? ["Open marks: within 5 % of the least."] : [];
+  const marks = index.best === "least" ? ["Open marks: within 5\u00a0% of the least."] : [];
   if (about.served && index.searched) marks.push("Star and band: searched between the marks.");
   if (index.name === "acceleration") marks.push("Dotted: the bare frame; dash and dots: the frame braced for good.");
   return marks.join(" ");
