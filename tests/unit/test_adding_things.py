@@ -19,7 +19,7 @@ Edits = dict[str, list[tuple[str, str]]]
 
 VARIABLE = '        Variable("slip_travel", each, "m",'
 TRAVEL = "        by_storey[RESULT.slip_travel, i] = travel\n"
-STATUS = "    result[RESULT.status] = s[STATUS]\n"
+STATUS = "    result[RESULT.status] = s[STATE.status]\n"
 
 OUTPUT: Edits = {
     "fdspec/variables.py": [
