@@ -181,7 +181,7 @@ def run_lanes(plans, forms, stride, ground, dt, parts, certify, free_steps, at_r
         search_all_deferred(p, lane, read(Plan, plans, lane), deferred, floor, search)
         search_deferred_brace(p, lane, read(Plan, plans, lane), deferred_brace, floor, search)
         take_state(p, lane, s)
-        if given_up[lane, ROW.status] != OK:
+        if given_up[lane, STATE.status] != OK:
             for row in range(N_STATE):
                 s[row] = given_up[lane, row]
         if at_rest and s[STATE.status] == OK:
