@@ -15,6 +15,7 @@ from fdspec.measures.ensemble import statistic_of
 from fdspec.measures.indices import Weights, needs_of, value_of
 from fdspec.model.building import Building, Frame
 from fdspec.model.motion import GroundMotion
+from fdspec.model.standing import below
 from fdspec.runs import cost
 from fdspec.runs.cube import named
 from fdspec.scheduling.task import plan
@@ -160,7 +161,7 @@ class Bench:
 
     def _reach(self, motion: GroundMotion) -> FloatArray:
         peak = self.peaks_of(self._stuck, motion)
-        velocity = peak["peak_velocity"] + np.append(0.0, peak["peak_velocity"])[self.building.stands_on]
+        velocity = peak["peak_velocity"] + below(peak["peak_velocity"], self.building.stands_on)
         return _reach(self.building, peak["peak_acceleration"], peak["peak_drift"], velocity)
 
     @property

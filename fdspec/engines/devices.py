@@ -184,7 +184,7 @@ def results_of(
     return storeys, totals, link_results(frame, outcome)
 
 
-def link_results(frame: DeviceFrame, outcome: Outcome) -> dict[str, FloatArray]:
+def link_results(frame: DeviceFrame, outcome: Outcome) -> dict[str, Any]:
     """Return what each of the building's links has at the end of a history, by name, (M,)."""
     tally, others = outcome.tally, frame.others
     return {
@@ -192,8 +192,8 @@ def link_results(frame: DeviceFrame, outcome: Outcome) -> dict[str, FloatArray]:
         "residual_link_slip": outcome.sliders[0, others],
         "peak_link_force": tally[row.PEAK_FORCE, others],
         "link_energy": tally[row.WORK, others],
-        "link_events": tally[row.EVENTS, others],
-        "link_contacts": tally[row.CONTACTS, others],
+        "link_events": tally[row.EVENTS, others].astype(np.int64),
+        "link_contacts": tally[row.CONTACTS, others].astype(np.int64),
     }
 
 
@@ -256,7 +256,7 @@ def _trajectory(
     storey_of = np.full(frame.places.shape[1], -1)
     storey_of[dampers[dampers >= 0]] = np.flatnonzero(dampers >= 0)
     ours = storey_of[traces.log[0]] >= 0
-    tally, totals = outcome.tally, outcome.totals
+    totals = outcome.totals
     result = storey_results(building, frame, outcome)
     drift = building.drifts(floor["displacement"])
     elastic = np.where(columns >= 0, building.hardening_ratio, 1.0) * frame_stiffness(building)
@@ -275,12 +275,7 @@ def _trajectory(
         link_phase=np.nan_to_num(link["phase"][:, others]).astype(np.int64),
         link_work=link["work"][:, others],
         storeys={name: result[name] for name in DEMANDS},
-        peak_link_slip=tally[row.PEAK_SLIP, others],
-        residual_link_slip=outcome.sliders[0, others],
-        peak_link_force=tally[row.PEAK_FORCE, others],
-        link_energy=tally[row.WORK, others],
-        link_events=tally[row.EVENTS, others].astype(np.int64),
-        link_contacts=tally[row.CONTACTS, others].astype(np.int64),
+        **link_results(frame, outcome),
         collapse_storey=storey + 1,
         collapse_time=totals["collapse_time"],
         collapse_drift=float(frame.drift_limit[storey]) if storey >= 0 else np.inf,

@@ -41,10 +41,15 @@ def is_chain(stands_on: IntArray) -> bool:
     return bool((stands_on == np.arange(stands_on.size)).all())
 
 
+def below(motion: Array, stands_on: IntArray) -> Array:
+    """Return (..., N) the motion of what each storey stands on, from that of the floors; the ground is 0."""
+    ground = np.zeros((*motion.shape[:-1], 1))
+    return np.asarray(np.concatenate([ground, motion], axis=-1)[..., stands_on])
+
+
 def drifts(displacement: Array, stands_on: IntArray) -> Array:
     """Return the drift of each storey (..., N) from displacements of floors (..., N), m."""
-    ground = np.zeros((*displacement.shape[:-1], 1))
-    return np.asarray(displacement - np.concatenate([ground, displacement], axis=-1)[..., stands_on])
+    return np.asarray(displacement - below(displacement, stands_on))
 
 
 def spring_matrix(springs: Array, stands_on: IntArray) -> Array:

@@ -11,6 +11,7 @@ from fdspec.engines.demands import brace_force_of, column_shear_of
 from fdspec.engines.trajectory import DeviceTrajectory, FloatArray, Span, Trajectory, TrajectoryWithDevices
 from fdspec.model.building import Building
 from fdspec.model.motion import GroundMotion
+from fdspec.model.standing import below
 from fdspec.store import provenance
 from fdspec.variables import HISTORY, describe
 
@@ -67,10 +68,9 @@ def history_of(
 
 def _over_time(building: Building, trajectory: Trajectory) -> dict[str, Any]:
     """Return the variables over time."""
-    ground = np.zeros_like(trajectory.displacement[:, :1])
-    below = np.concatenate([ground, trajectory.displacement], axis=1)[:, building.stands_on]
-    drift = trajectory.displacement - below
-    brace_drift = trajectory.brace_displacement - below
+    floor_below = below(trajectory.displacement, building.stands_on)
+    drift = trajectory.displacement - floor_below
+    brace_drift = trajectory.brace_displacement - floor_below
     kinetic = 0.5 * (
         trajectory.velocity**2 @ building.floor_mass + trajectory.brace_velocity**2 @ building.brace_mass
     )

@@ -114,7 +114,7 @@ def test_a_matrix_falls_into_springs(stands_on: list[int]) -> None:
     np.testing.assert_allclose(found.storey, storey, rtol=1e-12)
     np.testing.assert_allclose(found.ground, ground, atol=1e-12)
     matrix[0, 4] = matrix[4, 0] = -0.5
-    assert Linkage.of(matrix, on).dense.any() or stands_on[4] == 1
+    assert Linkage.of(matrix, on).dense.any()
 
 
 def test_drifts_are_those_from_the_floor_below() -> None:
