@@ -85,7 +85,8 @@ class BuildingContent:
         """Everything but the numbers of the cells; plain enough for JSON."""
         cube = self.cube
         levels = cube[INTENSITY].values.tolist() if INTENSITY in cube.dims else [1.0]
-        return {
+        beside = {"stands_on": cube["stands_on"].values.tolist()} if "stands_on" in cube.coords else {}
+        return beside | {
             "name": self.name,
             "cubes": [
                 {

@@ -165,3 +165,32 @@ def test_the_layout_at_three_widths_light_and_dark(
     found = Axe().run(page)
     assert found.violations_count == 0, found.generate_report()
     context.close()
+
+
+def test_no_line_runs_from_one_frame_into_the_next(wide: Watched, tmp_path: Path) -> None:
+    """Two storeys beside three, joined by a link: of each statistic a line for either frame."""
+    low = fdspec.Building(30e3, [40e6, 30e6], 100.0, 60e6, 60e3)
+    high = fdspec.Building(30e3, [30e6] * 3, 100.0, 60e6, 40e3)
+    joined = fdspec.side_by_side(low, high, links=[fdspec.Link(2, 4, 50e6, 30e3)])
+    motions = [fdspec.load_record("FSR1"), fdspec.load_record("FMR1")]
+    cube = fdspec.sweep_buildings(motions, {"joined": joined}, slip_scale=[1.0], stiffness_scale=[1.0])
+    store.save(cube, tmp_path / "joined.nc")
+    each = 1e3 * profile(cube, "peak_drift", "joined", 1.0, 1.0)
+    card = "profile-peak_drift"
+    with served(tmp_path, "joined.nc") as at:
+        page = wide.open(at)
+        page.select_option("#record", label="FMR1")
+        wide.settled()
+        lines = [drawn(page, card, k) for k in range(12)]
+        legend = page.locator(f"#{card} .legend .traces").count()
+    frames = [slice(0, 2), slice(2, 5)]
+    for k, frame in enumerate(frames):
+        for record in range(2):
+            np.testing.assert_allclose(lines[2 * k + record]["x"], each[record, frame], rtol=1e-13)
+        low_line, high_line, median, chosen = lines[4 + 4 * k : 8 + 4 * k]
+        assert high_line["fill"] == "tonextx"
+        for line, share in ((low_line, 0.16), (high_line, 0.84), (median, 0.5)):
+            np.testing.assert_allclose(line["x"], np.quantile(each[:, frame], share, axis=0), rtol=1e-12)
+        np.testing.assert_allclose(chosen["x"], each[1, frame], rtol=1e-13)
+        assert median["y"] == [[0.5, 1.5], [2.5, 3.5, 4.5]][k]
+    assert legend == 3

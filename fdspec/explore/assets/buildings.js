@@ -75,18 +75,39 @@ function designWords(s) {
   return [AXES.building[s.building], ...factors.map(([name, [axis, words]]) => `${words} ${written(AXES[axis][s[name]])}`)].join(", ");
 }
 
+// Places of storeys, frame by frame: a storey that does not stand on the one before it begins another, and no line joins them.
+function framesOf(s) {
+  const standsOn = about.stands_on ? about.stands_on[s.building] : AXES.storey.map((storey) => storey - 1);
+  const frames = [];
+  for (const [k, storey] of AXES.storey.entries()) {
+    if (frames.length === 0 || standsOn[k] !== storey - 1) frames.push([]);
+    frames.at(-1).push(k);
+  }
+  return frames;
+}
+
 function profilePlot(s, quantity, everything) {
   const lines = everything.map(({ numbers }) => overHeight(numbers, quantity, s)), y = heightsOf(quantity);
   const over = (share) => y.map((_, k) => said(lines.map((line) => line[k]), share));
   const hover = (name) => `%{x:.4g} ${quantity.unit}, storey %{customdata}<extra>${name}</extra>`;
-  const line = (name, x, look, more) => ({ type: "scatter", mode: "lines", name, x, y, customdata: AXES.storey, line: look, hovertemplate: hover(name), showlegend: false, ...more });
-  const data = lines.map((x, k) => line(plain(everything[k].name), x, { color: LOOK.grey, width: 1 }));
-  if (lines.length > 1) {
-    data.push(line("16 %", over(0.16), { color: FLOOR, width: 0 }, { hoverinfo: "skip" }));
-    data.push(line("16 to 84 %", over(0.84), { color: FLOOR, width: 0 }, { fill: "tonextx", fillcolor: `${FLOOR}33`, showlegend: true, hoverinfo: "skip" }));
+  const frames = framesOf(s), data = [];
+  const line = (frame, name, x, look, more) => {
+    const of = (values) => frame.map((k) => values[k]);
+    const { showlegend = false, ...others } = more ?? {};
+    data.push({
+      type: "scatter", mode: "lines", name, x: of(x), y: of(y), customdata: of(AXES.storey), line: look, hovertemplate: hover(name),
+      legendgroup: name, showlegend: showlegend && frame === frames[0], ...others,
+    });
+  };
+  for (const frame of frames) for (const [k, x] of lines.entries()) line(frame, plain(everything[k].name), x, { color: LOOK.grey, width: 1 });
+  for (const frame of frames) {
+    if (lines.length > 1) {
+      line(frame, "16 %", over(0.16), { color: FLOOR, width: 0 }, { hoverinfo: "skip" });
+      line(frame, "16 to 84 %", over(0.84), { color: FLOOR, width: 0 }, { fill: "tonextx", fillcolor: `${FLOOR}33`, showlegend: true, hoverinfo: "skip" });
+    }
+    line(frame, "median", over(0.5), { color: FLOOR, width: 2.4 }, { mode: "lines+markers", marker: { color: FLOOR, size: 6 }, showlegend: true });
+    if (s.record >= 0) line(frame, plain(about.records[s.record].name), lines[s.record], { color: BRACE, width: 2, dash: "dash" }, { showlegend: true });
   }
-  data.push(line("median", over(0.5), { color: FLOOR, width: 2.4 }, { mode: "lines+markers", marker: { color: FLOOR, size: 6 }, showlegend: true }));
-  if (s.record >= 0) data.push(line(plain(about.records[s.record].name), lines[s.record], { color: BRACE, width: 2, dash: "dash" }, { showlegend: true }));
   const top = AXES.storey.at(-1);
   return {
     data,
