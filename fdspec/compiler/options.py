@@ -41,7 +41,7 @@ from numba import config, types
 from numba.extending import intrinsic
 
 from fdspec.compiler.cache import cache_folder, compiling, tell
-from fdspec.compiler.callees import CalleeCompiler, for_an_entry
+from fdspec.compiler.callees import OPTIONS, CalleeCompiler, for_an_entry
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -75,8 +75,6 @@ CACHE = (
 )
 """Where compiled kernels are kept: ``FDSPEC_CACHE_DIR`` wins, then numba's own ``NUMBA_CACHE_DIR``."""
 
-
-OPTIONS: Final[dict[str, Any]] = {"nogil": True, "error_model": "numpy"}
 
 CALLEE: Final[dict[str, Any]] = {**OPTIONS, "no_cfunc_wrapper": True, "pipeline_class": CalleeCompiler}
 
