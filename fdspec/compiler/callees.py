@@ -1,15 +1,19 @@
-"""Rules that only other kernels call are compiled for those callers: no machine code of their own, no door for Python.
+"""Rules that only other kernels call are compiled for those callers, and only as far as these need it.
 
-numba turns every function that it compiles into machine code at once, and gives it a wrapper that unpacks
-Python's arguments, with the whole rule in it a second time.  Most of what kernels are made of is never run by
-itself: it ends inside an entry.  A third of the time to compile goes into code that nobody runs.  While an
-entry is compiled, what it calls stays the compiler's intermediate code, to be linked into callers; a rule that
-Python calls all the same is compiled for Python then.
+numba does for every function what it does for one that Python calls: it writes a wrapper that unpacks
+Python's arguments, with the function in it a second time, optimises both together with a copy of all that is
+called from there, makes machine code of it, and does so again for each constant among the arguments.  Most of
+what kernels are made of is never run by itself: it ends inside an entry.  While an entry is compiled, what it
+calls is compiled once for the types of its arguments, has no wrapper, and stays the compiler's intermediate
+code, to be linked into the entry and optimised there.  That halves the time to compile, and changes no bit.
+
+A rule that Python calls all the same, as tests do, is compiled for Python then.
 """
 
 from __future__ import annotations
 
 import ctypes
+import gc
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -17,7 +21,8 @@ from functools import cache
 from typing import Any, Final
 
 import numba
-from numba.core.codegen import JITCodeLibrary
+from numba import types
+from numba.core.codegen import CPUCodeLibrary, JITCodeLibrary
 from numba.core.compiler import Compiler
 
 OPTIONS: Final[dict[str, Any]] = {"nogil": True, "error_model": "numpy"}
@@ -31,12 +36,19 @@ _for_an_entry: ContextVar[bool] = ContextVar("for_an_entry", default=False)
 
 @contextmanager
 def for_an_entry() -> Iterator[None]:
-    """Compile what is called inside for its callers."""
+    """Compile what is called inside for its callers.
+
+    Garbage is not looked for meanwhile: a compiler makes many small objects that last as long as it runs.
+    """
     token = _for_an_entry.set(True)
+    collects = gc.isenabled()
+    gc.disable()
     try:
         yield
     finally:
         _for_an_entry.reset(token)
+        if collects:
+            gc.enable()
 
 
 class CalleeLibrary(JITCodeLibrary):  # type: ignore[misc]
@@ -44,6 +56,8 @@ class CalleeLibrary(JITCodeLibrary):  # type: ignore[misc]
 
     def __init__(self, codegen: Any, rule: Callable[..., Any]) -> None:
         super().__init__(codegen, rule.__qualname__)
+        self.calls: list[CPUCodeLibrary] = []
+        self._whole: Any = None
         alone = cache(lambda: numba.njit(**OPTIONS)(rule))
         self._called = _Wrapper(lambda closure, arguments, keywords: alone()(*arguments))  # noqa: ARG005
 
@@ -55,16 +69,58 @@ class CalleeLibrary(JITCodeLibrary):  # type: ignore[misc]
     def set_env(self, *environment: Any) -> None:
         """Do without one: what is linked into an entry has the entry's."""
 
-    def _finalize_final_module(self) -> None:
-        """Leave the code as it is, without a place in memory."""
+    def add_linking_library(self, library: CPUCodeLibrary) -> None:
+        """Keep what the rule calls."""
+        super().add_linking_library(library)
+        self.calls.append(library)
+
+    def finalize(self) -> None:
+        """Leave the code as it is: neither linked nor optimised, without a place in memory."""
+        self._raise_if_finalized()
         self._finalize_dynamic_globals()
         self._finalized = True
+
+    def own_module(self) -> Any:
+        """Return the rule's code, which others may have a copy of."""
+        return super()._get_module_for_linking()
+
+    def _get_module_for_linking(self) -> Any:
+        """Return the code of the rule and of all that it calls."""
+        if self._whole is None:
+            whole = self.own_module().clone()
+            for called in _called_by(self):
+                whole.link_in(_module_of(called), preserve=True)
+            self._whole = whole
+        return self._whole
 
     def get_pointer_to_function(self, name: str) -> int:  # noqa: ARG002
         """Return the address of what Python calls: it has the rule compiled for Python first."""
         self._ensure_finalized()
         address = ctypes.cast(self._called, ctypes.c_void_p).value
         return 0 if address is None else address
+
+
+def _module_of(library: CPUCodeLibrary) -> Any:
+    if isinstance(library, CalleeLibrary):
+        return library.own_module()
+    return library._get_module_for_linking()  # noqa: SLF001
+
+
+def _called_by(library: CalleeLibrary) -> list[CPUCodeLibrary]:
+    """Return all that a rule calls, each after whatever calls it: the linker takes what it was asked for."""
+    seen: set[CPUCodeLibrary] = set()
+    callees_first: list[CPUCodeLibrary] = []
+
+    def visit(one: CPUCodeLibrary) -> None:
+        if one in seen:
+            return
+        seen.add(one)
+        for called in one.calls if isinstance(one, CalleeLibrary) else ():
+            visit(called)
+        callees_first.append(one)
+
+    visit(library)
+    return callees_first[-2::-1]
 
 
 class CalleeCompiler(Compiler):  # type: ignore[misc]
@@ -76,3 +132,15 @@ class CalleeCompiler(Compiler):  # type: ignore[misc]
             self.state.flags.no_cpython_wrapper = True
             self.state.library = CalleeLibrary(self.state.targetctx.codegen(), self.state.func_id.func)
         return super().define_pipelines()
+
+
+def once_for_all_constants(dispatcher: Any) -> Any:
+    """Have numba compile a rule for the types of its arguments, whatever their values: LLVM knows those."""
+    ask = dispatcher.get_call_template
+
+    def get_call_template(arguments: Any, keywords: Any) -> Any:
+        plain = {name: types.unliteral(kind) for name, kind in keywords.items()}
+        return ask(tuple(types.unliteral(kind) for kind in arguments), plain)
+
+    dispatcher.get_call_template = get_call_template
+    return dispatcher
