@@ -295,8 +295,10 @@ def _warm(building: Building, needs: Collection[str]) -> None:
             import fdspec.engines.devices
         if ALONE in needs or not runs_beside_others(building.frame):
             import fdspec.engines.many_storeys
-    if set(STRAIN) & set(needs):
-        import fdspec.engines.strain  # noqa: F401
+    if set(STRAIN) & set(needs) and building.n_storeys == 1:
+        import fdspec.engines.strain
+    elif set(STRAIN) & set(needs):
+        import fdspec.engines.frame_strain  # noqa: F401
 
 
 def _run_storey(
@@ -389,7 +391,7 @@ def _run_frame(
         row = dict(zip(STOREY_RESULTS, by_storey[column], strict=True))
         found = _largest(building, row, dict(zip(TOTALS, totals[column], strict=True)))
         if set(STRAIN) & set(needs):
-            from fdspec.engines.strain import strain_of_frame
+            from fdspec.engines.frame_strain import strain_of_frame
 
             found |= dict(zip(STRAIN, strain_of_frame(one, motion)[:2], strict=True))
         table[:, column] = [found.get(name, np.nan) for name in RESPONSES]

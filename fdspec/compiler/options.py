@@ -48,10 +48,11 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 KERNELS = Path(__file__).parents[1] / "kernels"
 
 float1d = types.Array(types.float64, 1, "C")
-ground1d = types.Array(types.float64, 1, "C", readonly=True)
 float2d = types.Array(types.float64, 2, "C")
 float3d = types.Array(types.float64, 3, "C")
 int1d = types.Array(types.int64, 1, "C")
+given1d = types.Array(types.float64, 1, "C", readonly=True)
+given2d = types.Array(types.float64, 2, "C", readonly=True)
 
 
 def record_of(cls: type) -> types.Type:

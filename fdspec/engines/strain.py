@@ -1,15 +1,13 @@
-"""Strain energy of many histories, its area and its maximum, for Filiatrault and Cherry's index."""
+"""Strain energy of single-storey histories, its area and its maximum, for Filiatrault and Cherry's index."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fdspec.kernels.frame.entry import integrate_frame_strain
-from fdspec.kernels.frame.results import RADIANS as FRAME_RADIANS
 from fdspec.kernels.storey.constants import RADIANS
-from fdspec.kernels.storey.strain import STRAIN_RESULTS, integrate_strain
-from fdspec.model.building import Frame
+from fdspec.kernels.storey.strain import STRAIN_RESULTS
+from fdspec.kernels.storey.strain_entry import integrate_strain
 from fdspec.model.motion import GroundMotion
 
 FloatArray = NDArray[np.float64]
@@ -46,18 +44,3 @@ def strain_of_columns(
         [np.repeat(frames, p, axis=0), np.tile(slip_force, m), np.tile(kinetic_slip_force, m)]
     )
     return strain_of_storeys(storeys, motion)[:, :2].reshape(m, p, 2)
-
-
-def strain_of_frame(frame: Frame, motion: GroundMotion, radians: float = FRAME_RADIANS) -> FloatArray:
-    """Integrate a frame of N storeys; return (len(STRAIN_RESULTS),)."""
-    result = np.empty(len(STRAIN_RESULTS))
-    integrate_frame_strain(
-        frame.properties,
-        frame.dense_stiffness,
-        frame.dense_damping,
-        motion.acceleration,
-        motion.dt,
-        radians,
-        result,
-    )
-    return result

@@ -7,7 +7,8 @@ from scipy.integrate import simpson
 
 import fdspec
 from fdspec.engines import strain
-from fdspec.engines.strain import strain_of_frame, strain_of_storeys
+from fdspec.engines.frame_strain import strain_of_frame
+from fdspec.engines.strain import strain_of_storeys
 from fdspec.model.building import Building
 from fdspec.model.damping import ModalDamping
 from fdspec.model.motion import GroundMotion

@@ -79,7 +79,8 @@ def test_a_building_closes_its_energy(slip_force: tuple[float, float]) -> None:
 @pytest.mark.parametrize(("brace_mass", "kinetic"), [(50.0, None), (0.0, None), (0.0, 15e3)])
 def test_strain_energy_is_that_of_the_other_formulation(brace_mass: float, kinetic: float | None) -> None:
     """Area and maximum, by the closed form of one storey and by the series of many."""
-    from fdspec.engines.strain import strain_of_frame, strain_of_storeys
+    from fdspec.engines.frame_strain import strain_of_frame
+    from fdspec.engines.strain import strain_of_storeys
 
     frame = fdspec.Building.single_storey(0.6, 4.0, 20e3, brace_mass=brace_mass, kinetic_slip_force=kinetic)
     one = strain_of_storeys(np.array([frame.storey]), short_motion())[0]

@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 from numba import types
 
-from fdspec.compiler.options import entry, float1d, float2d, ground1d, int1d, lowest
+from fdspec.compiler.options import entry, float1d, float2d, given1d, int1d, lowest
 from fdspec.compiler.records import read, write
 from fdspec.kernels.batch.deferred_peaks import (
     N_BRACE,
@@ -72,7 +72,7 @@ def prepare(storeys, dt, radians, certify, parts, plans, forms, stride):
         float2d,
         float2d,
         float2d,
-        ground1d,
+        given1d,
         types.float64,
         types.int64,
         types.boolean,

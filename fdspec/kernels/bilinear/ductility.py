@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numba import types
 
-from fdspec.compiler.options import entry, float1d, float2d, ground1d, inner, int1d
+from fdspec.compiler.options import entry, float1d, float2d, given1d, inner, int1d
 from fdspec.kernels.bilinear.entry import fastest, parts_of
 from fdspec.kernels.bilinear.history import RESULTS, history
 from fdspec.kernels.bilinear.mode import MODE_SIZE, TERMS, fill_mode, terms_for
@@ -121,7 +121,7 @@ def follow_dip(problem, ground, elastic, hardening, series, room, out, target, l
 
 @entry(
     types.float64(
-        ground1d,
+        given1d,
         types.float64,
         types.float64,
         types.float64,

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numba import types
 
-from fdspec.compiler.options import entry, float1d, float2d, ground1d, inner
+from fdspec.compiler.options import entry, float1d, float2d, given1d, inner
 from fdspec.kernels.bilinear.history import history
 from fdspec.kernels.bilinear.mode import MODE_SIZE, RADIANS, TERMS, fill_mode, rate_of, terms_for
 from fdspec.kernels.bilinear.rigid import slide
@@ -27,7 +27,7 @@ def parts_of(dt, c, k, alpha):
 
 @entry(
     types.void(
-        ground1d,
+        given1d,
         types.float64,
         types.float64,
         types.float64,
@@ -77,7 +77,7 @@ def bilinear_histories(ground, dt, c, k, alpha, strength, collapse, certify, res
         )
 
 
-@entry(types.void(ground1d, types.float64, float1d, float2d))
+@entry(types.void(given1d, types.float64, float1d, float2d))
 def rigid_histories(ground, dt, strength, out):
     """Slide a rigid block of each strength (m,), m/s2; out (m, len(RESULTS)) as above."""
     for i in range(strength.size):

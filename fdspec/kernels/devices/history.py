@@ -13,7 +13,7 @@ import math
 import numpy as np
 from numba import types
 
-from fdspec.compiler.options import entry, float1d, float2d, float3d, inner
+from fdspec.compiler.options import entry, float1d, float2d, float3d, given1d, given2d, inner
 from fdspec.compiler.positions import positions
 from fdspec.kernels.devices.energy import input_work, stored_energy, viscous_work, work_of_gravity
 from fdspec.kernels.devices.expand import expand
@@ -46,8 +46,6 @@ from fdspec.kernels.types import (
     TRANSITION_CAP_REACHED,
 )
 
-given1d = types.Array(types.float64, 1, "C", readonly=True)
-given2d = types.Array(types.float64, 2, "C", readonly=True)
 nodes1d = types.Array(types.int64, 1, "C", readonly=True)
 places2d = types.Array(types.int64, 2, "C", readonly=True)
 flags2d = types.Array(types.boolean, 2, "C", readonly=True)

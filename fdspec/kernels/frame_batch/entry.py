@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 from numba import types
 
-from fdspec.compiler.options import entry, float2d, float3d, inner, int1d, wide
+from fdspec.compiler.options import entry, float2d, float3d, given1d, inner, int1d, wide
 from fdspec.kernels.frame.guard import SAME_INSTANT
 from fdspec.kernels.frame.model import MODEL_ROWS, fastest_rate
 from fdspec.kernels.frame.reset import TALLY_ROWS
@@ -63,7 +63,6 @@ ORDERS: Final = np.array(
 LINE: Final = 8
 """Numbers in a line of the cache: a vector of 512 bits that begins elsewhere lies across two of them."""
 
-given1d = types.Array(types.float64, 1, "C", readonly=True)
 given3d = types.Array(types.float64, 3, "C", readonly=True)
 
 

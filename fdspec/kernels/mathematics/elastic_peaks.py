@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numba import types
 
-from fdspec.compiler.options import entry, float1d, float2d, ground1d, inlined, inner
+from fdspec.compiler.options import entry, float1d, float2d, given1d, inlined, inner
 from fdspec.kernels.mathematics.oscillator import TERMS, expand, rate_bound, series_order, step_map
 from fdspec.kernels.mathematics.polynomial_roots import largest_magnitude
 
@@ -126,7 +126,7 @@ def look_between(p, lane, ground, h, x, v, first, last, more, best, c, d):
         v = vn
 
 
-@entry(types.void(float1d, float1d, ground1d, types.float64, float2d))
+@entry(types.void(float1d, float1d, given1d, types.float64, float2d))
 def elastic_peaks(omega, zeta, ground, h, out):
     """Fill out[0] with the largest |x|, m, and out[1] with the largest |x'' + a_g|, m/s2, of each oscillator.
 

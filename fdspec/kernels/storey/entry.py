@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import types
 
-from fdspec.compiler.options import entry, float1d, float2d, ground1d, int1d, record_of
+from fdspec.compiler.options import entry, float1d, float2d, given1d, int1d, record_of
 from fdspec.kernels.mathematics.oscillator import TERMS
 from fdspec.kernels.storey.constants import plan, steps_per_sample
 from fdspec.kernels.storey.energy import N_FORMS, put_losses
@@ -16,7 +16,7 @@ from fdspec.kernels.types import Motion, Storey
 @entry(
     types.int64(
         record_of(Storey),
-        ground1d,
+        given1d,
         types.float64,
         types.int64,
         types.boolean,

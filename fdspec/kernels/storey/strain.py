@@ -11,22 +11,18 @@ from __future__ import annotations
 
 from typing import Final
 
-import numpy as np
-from numba import types
-
-from fdspec.compiler.options import entry, float1d, float2d, ground1d, inner, int1d
+from fdspec.compiler.options import inner
 from fdspec.compiler.positions import positions
-from fdspec.compiler.records import read
 from fdspec.kernels.mathematics.oscillator import TERMS, advance, area, expand, square_integral
 from fdspec.kernels.mathematics.polynomial_roots import largest_magnitude, value_slope
 from fdspec.kernels.mathematics.quadrature import series_area, square_form
 from fdspec.kernels.storey.bounds import floor_fourths, forcing, magnitude_bound, relative_acceleration
 from fdspec.kernels.storey.constants import plan, steps_per_sample
-from fdspec.kernels.storey.energy import N_FORMS, loss_at
+from fdspec.kernels.storey.energy import loss_at
 from fdspec.kernels.storey.slip import brace_fourths
 from fdspec.kernels.storey.state import motion_of
 from fdspec.kernels.storey.step import begin, begin_slip, take_step
-from fdspec.kernels.types import N_STATE, OK, STATE, STICK, Motion, Storey
+from fdspec.kernels.types import N_STATE, OK, STATE, STICK, Motion
 
 STRAIN_RESULTS: Final = ("strain_energy_area", "peak_strain_energy", "status")
 """What a history leaves behind, in the order of its result row: J s, J, a status code."""
@@ -266,41 +262,4 @@ def strain_of_history(
     result[STRAIN.strain_energy_area] = total
     result[STRAIN.peak_strain_energy] = most
     result[STRAIN.status] = s[STATE.status]
-    return busiest
-
-
-@entry(types.int64(float2d, ground1d, types.float64, types.float64, int1d, float1d, float2d))
-def integrate_strain(storeys, ground, dt, radians, phases, times, results):
-    """Integrate the strain energy of storeys (m, 8), rows of `Storey`, each from rest.
-
-    times, phases: room for the changes of phase on one step, of equal size.  Filled: results
-    (m, len(STRAIN_RESULTS)).  Returns how many changes the busiest step has: where that is more than
-    there is room for, it stopped there and wants to be called again with more.
-    """
-    no_traces, no_forms = np.empty((0, 0)), np.zeros(N_FORMS)
-    squares = np.empty(N_SQUARES)
-    start, s = np.empty(N_STATE), np.empty(N_STATE)
-    floor, brace, out = np.empty(TERMS), np.empty(TERMS), np.empty(TERMS)
-    busiest = 0
-    for i in range(storeys.shape[0]):
-        found = strain_of_history(
-            read(Storey, storeys, i),
-            ground,
-            dt,
-            radians,
-            times,
-            phases,
-            no_traces,
-            no_forms,
-            squares,
-            start,
-            s,
-            floor,
-            brace,
-            out,
-            results[i],
-        )
-        busiest = max(busiest, found)
-        if busiest > times.size:
-            break
     return busiest
