@@ -12,6 +12,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from fdspec.engines.frame_rates import rates_of
 from fdspec.errors import InvalidInput
 from fdspec.kernels.devices import layout as row
 from fdspec.kernels.frame.results import RADIANS as FRAME_RADIANS
@@ -66,9 +67,6 @@ def steps_of_building(building: Building, dt: float) -> float:
     """Return the most steps that a history takes in each record step of dt, s, changes not counted."""
     if building.n_storeys == 1 and not building.has_devices:
         return float(steps_of_storeys(np.array(building.storey), dt, 1))
-    # Imported here: loading the kernels for many storeys is nothing that a sweep of single storeys waits for.
-    from fdspec.engines.many_storeys import rates_of
-
     fastest = float(rates_of(building.frame).max())
     if building.has_devices:
         fastest = max(fastest, float(_link_rates(building).max(initial=0.0)))
