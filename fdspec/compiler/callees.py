@@ -24,9 +24,29 @@ import numba
 from numba import types
 from numba.core.codegen import CPUCodeLibrary, JITCodeLibrary
 from numba.core.compiler import Compiler
+from numba.core.compiler_machinery import PassManager
+from numba.core.registry import cpu_target
 
 OPTIONS: Final[dict[str, Any]] = {"nogil": True, "error_model": "numpy"}
 """What all kernels are compiled with (options.py)."""
+
+UNUSED_PASSES: Final = frozenset(
+    {
+        "WithLifting",
+        "InlineClosureLikes",
+        "RewriteDynamicRaises",
+        "MakeFunctionToJitFunction",
+        "InlineInlinables",
+        "FindLiterallyCalls",
+        "LiteralUnroll",
+        "InlineOverloads",
+        "NopythonRewrites",
+        "NoPythonSupportedFeatureValidation",
+        "AnnotateTypes",
+        "DumpParforDiagnostics",
+    }
+)
+"""Passes of numba for what no rule has in it: ``with``, functions inside, raises, expressions of arrays."""
 
 _Wrapper = ctypes.PYFUNCTYPE(ctypes.py_object, ctypes.c_void_p, ctypes.py_object, ctypes.c_void_p)
 """A function as CPython calls it: itself, positional arguments, keywords."""
@@ -44,11 +64,35 @@ def for_an_entry() -> Iterator[None]:
     collects = gc.isenabled()
     gc.disable()
     try:
-        yield
+        with _operators_resolved_once():
+            yield
     finally:
         _for_an_entry.reset(token)
         if collects:
             gc.enable()
+
+
+@contextmanager
+def _operators_resolved_once() -> Iterator[None]:
+    """Have numba remember what an operator does with numbers: for each product it tries all that it knows."""
+    context = cpu_target.typing_context
+    resolve = context.resolve_function_type
+    known: dict[Any, Any] = {}
+
+    def remembered(function: Any, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> Any:
+        numbers = all(isinstance(kind, (types.Number, types.Boolean)) for kind in arguments)
+        if keywords or not numbers or not isinstance(function, types.Function):
+            return resolve(function, arguments, keywords)
+        key = function, arguments
+        if key not in known:
+            known[key] = resolve(function, arguments, keywords)
+        return known[key]
+
+    context.resolve_function_type = remembered
+    try:
+        yield
+    finally:
+        del context.resolve_function_type
 
 
 class CalleeLibrary(JITCodeLibrary):  # type: ignore[misc]
@@ -127,11 +171,19 @@ class CalleeCompiler(Compiler):  # type: ignore[misc]
     """numba's compiler, whose code is kept for linking while an entry is compiled."""
 
     def define_pipelines(self) -> Any:
-        """Choose the library that the code goes into, then compile as ever."""
-        if _for_an_entry.get():
-            self.state.flags.no_cpython_wrapper = True
-            self.state.library = CalleeLibrary(self.state.targetctx.codegen(), self.state.func_id.func)
-        return super().define_pipelines()
+        """Choose the library that the code goes into, and leave out the passes that rules have no use for."""
+        pipelines = super().define_pipelines()
+        if not _for_an_entry.get():
+            return pipelines
+        self.state.flags.no_cpython_wrapper = True
+        self.state.library = CalleeLibrary(self.state.targetctx.codegen(), self.state.func_id.func)
+        (whole,) = pipelines
+        lean = PassManager(whole.pipeline_name)
+        for step, description in whole.passes:
+            if step.__name__ not in UNUSED_PASSES:
+                lean.add_pass(step, description)
+        lean.finalize()
+        return [lean]
 
 
 def once_for_all_constants(dispatcher: Any) -> Any:
