@@ -28,7 +28,8 @@ from fdspec.model.motion import GroundMotion
 from fdspec.model.toml_lines import parsed
 from fdspec.runs.after import NOTHING, After
 from fdspec.runs.building_cube import DEMANDS, ON_REQUEST, OUTPUTS
-from fdspec.runs.study import Study, free_vibration_field, known_output, mistake_of, placed, text_of
+from fdspec.runs.study import Study
+from fdspec.runs.study_file import free_vibration_field, known_output, mistake_of, placed, text_of
 from fdspec.runs.study_records import (
     STUDY_RECORDS,
     RecordFile,

@@ -1,65 +1,23 @@
 """A study: everything one sweep needs, as a TOML file that a person writes."""
 
-import difflib
-import math
-from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import partial
 from pathlib import Path
-from typing import Annotated, Any, Final
 
-from pydantic import (
-    AfterValidator,
-    BaseModel,
-    ConfigDict,
-    PlainValidator,
-    StrictBool,
-    StrictStr,
-    ValidationError,
-    create_model,
-)
-
-from fdspec.errors import StudyError
-from fdspec.model.building_file import LinkTable, TensionBraceTable
-from fdspec.model.grid import GRID_FIELDS, Grid, checked, contradictions
-from fdspec.model.link import Link, TensionBrace
+from fdspec.model.grid import Grid
 from fdspec.model.motion import GroundMotion
-from fdspec.model.toml_lines import key_lines, line_of, parsed
 from fdspec.runs.after import NOTHING, After
-from fdspec.runs.record_scaling import Scaling, scaling_of
-from fdspec.runs.study_records import (
-    STUDY_RECORDS,
-    RecordFile,
-    distinct,
-    find_records,
-    matching,
-    record_field,
-    unknown_records,
-)
+from fdspec.runs.record_scaling import Scaling
+from fdspec.runs.study_outputs import ON_REQUEST, OUTPUTS
+from fdspec.runs.study_records import STUDY_RECORDS, RecordFile, find_records
 from fdspec.runs.study_text import (
     axis_text,
     bool_text,
     device_lines,
-    even_axis,
     link_tables,
     records_text,
     scaling_text,
     strings_text,
 )
-from fdspec.variables import CUBE, device_variables
-
-AXES: Final = ("stiffness_ratio", "pretension", "period", "intensity")
-
-
-_OUTPUTS: Final = tuple(v for v in CUBE.values() if v.dims[:1] == ("record",) and len(v.dims) > 1)
-DEMANDS: Final = tuple(v.name for v in device_variables(()))
-"""What it computes of frames with columns that yield, gravity, slots or re-centring springs alone."""
-
-OUTPUTS: Final = tuple(v.name for v in _OUTPUTS if not v.on_request and v.name not in DEMANDS)
-"""What a study computes unless it names its outputs: what depends on more than the record."""
-
-ON_REQUEST: Final = tuple(v.name for v in _OUTPUTS if v.on_request)
-"""What it computes only where it is named."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -104,37 +62,17 @@ class Study:
         StudyError
             When the file cannot be used; one line of text for each mistake, with field and line number.
         """
+        from fdspec.runs.study_file import text_of
+
         path = Path(path)
         return cls.parse(text_of(path), name=str(path), folder=path.parent)
 
     @classmethod
     def parse(cls, text: str, *, name: str = "study", folder: Path = Path()) -> "Study":
         """Read a study from TOML text; `name` stands for the file in error messages."""
-        try:
-            table = parsed(text)
-        except ValueError as error:
-            raise StudyError(f"{name}: {error}") from None
-        values: dict[str, Any] = {}
-        try:
-            values = dict(_StudyFile.model_validate(table))
-        except ValidationError as error:
-            mistakes = [
-                mistake_of(detail["loc"], detail["type"], detail["msg"], _StudyFile.model_fields)
-                for detail in error.errors()
-            ]
-        else:
-            mistakes = [((key,), f"{key}: {sentence}") for key, sentence in contradictions(values)]
-        if mistakes:
-            if all(where[0] != "records" for where, _ in mistakes):
-                mistakes += unknown_records(table.get("records"), folder)
-            raise placed(name, text, mistakes)
-        values["links"] += values.pop("tension_braces")
-        values["records"], mistakes = matching(values["records"], folder)
-        if mistakes:
-            raise placed(name, text, mistakes)
-        grid = Grid(**{key: values.pop(key) for key in GRID_FIELDS})
-        after = After(values.pop("free_vibration"), values.pop("at_rest"))
-        return cls(grid=grid, after=after, folder=folder, **values)
+        from fdspec.runs.study_file import fields_of
+
+        return cls(folder=folder, **fields_of(text, name, folder))
 
     def motions(self) -> tuple[GroundMotion, ...]:
         """Load the records, in order.
@@ -200,120 +138,3 @@ free_vibration = {self.after.free_vibration!r}
 # Go on until no damper can slip any more, and give residuals there; twice the work.
 at_rest = {bool_text(self.after.at_rest)}
 {link_tables(grid)}"""
-
-
-def text_of(path: Path) -> str:
-    """Return what a study file says, or raise StudyError."""
-    try:
-        return path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise StudyError(f"{path}: cannot be read ({error.strerror})") from None
-    except UnicodeDecodeError:
-        raise StudyError(f"{path}: is not a text file in UTF-8") from None
-
-
-def placed(name: str, text: str, mistakes: Iterable[tuple[tuple[str | int, ...], str]]) -> StudyError:
-    """Return the error that tells each mistake with its line, in the order of the file."""
-    lines = key_lines(text)
-    told = sorted(((line_of(lines, where), sentence) for where, sentence in mistakes), key=lambda one: one[0])
-    return StudyError("\n".join(f"{name}, line {line}: {sentence}" for line, sentence in told))
-
-
-def mistake_of(
-    where: tuple[str | int, ...], kind: str, message: str, known: Iterable[str]
-) -> tuple[tuple[str | int, ...], str]:
-    """Turn one of pydantic's complaints into a sentence that names the field, one of the known."""
-    name = str(where[0])
-    if kind == "extra_forbidden":
-        near = difflib.get_close_matches(name, known, n=1)
-        hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(known)}"
-        return where, f"{name}: is not a field of a study; {hint}"
-    if kind == "value_error":
-        return where, f"{name}: {message.removeprefix('Value error, ')}"
-    at = f" at index {where[1]}" if len(where) > 1 else ""
-    return where, f"{name}: {_TYPE_MISTAKES.get(kind, message)}{at}"
-
-
-_TYPE_MISTAKES: Final = {
-    "bool_type": "must be true or false",
-    "string_type": "must be a string",
-    "tuple_type": "must be a list",
-}
-"""What pydantic calls a wrong type, in the words of TOML."""
-
-
-def _field(name: str, value: object) -> object:
-    if name in AXES and isinstance(value, dict):
-        value = even_axis(value)
-    if name == "links":
-        return tuple(_of_table(LinkTable, table) for table in _tables(name, value))
-    return checked(name, value)
-
-
-def _tables(name: str, value: object) -> list[object]:
-    if not isinstance(value, list):
-        raise ValueError(f"must be tables, [[{name}]], got {value!r:.60}")
-    return value
-
-
-def _of_table(kind: type[LinkTable | TensionBraceTable], table: object) -> Link | TensionBrace:
-    """Return the link of a table; raise ValueError for what it cannot be."""
-    try:
-        link = kind.model_validate(table).made()
-    except ValidationError as error:
-        told = [(detail["loc"][0] if detail["loc"] else "table", detail["msg"]) for detail in error.errors()]
-        raise ValueError("; ".join(f"{key}: {sentence}" for key, sentence in told)) from None
-    checked("links", [link])
-    return link
-
-
-def _tension_braces(value: object) -> tuple[Link | TensionBrace, ...]:
-    return tuple(_of_table(TensionBraceTable, table) for table in _tables("tension_braces", value))
-
-
-def free_vibration_field(value: object) -> float:
-    """Return the seconds of free vibration of a study file; raise ValueError for what they cannot be."""
-    if isinstance(value, bool) or not (isinstance(value, int | float) and 0.0 <= value < math.inf):
-        raise ValueError(f"must be zero or a positive time in s, got {value!r:.60}")
-    return float(value)
-
-
-def _output(value: str) -> str:
-    return known_output(value, (*OUTPUTS, *DEMANDS, *ON_REQUEST))
-
-
-def known_output(value: str, known: Sequence[str]) -> str:
-    """Return the name of an output; raise ValueError, with what was meant, where it is none of the known."""
-    if value not in known:
-        near = difflib.get_close_matches(value, known, n=1)
-        hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
-        raise ValueError(f"does not know {value!r:.60}; {hint}")
-    return value
-
-
-def _study_file() -> type[BaseModel]:
-    """Build the model of a study file from the fields of `Grid`, so that there is one list of them."""
-    study = Grid.study()
-    scalars_and_axes: Any = {
-        name: (Annotated[Any, PlainValidator(partial(_field, name))], getattr(study, name))
-        for name in GRID_FIELDS
-    }
-    records = Annotated[tuple[Annotated[Any, PlainValidator(record_field)], ...], AfterValidator(distinct)]
-    output = Annotated[StrictStr, AfterValidator(_output)]
-    outputs = Annotated[tuple[output, ...], AfterValidator(distinct)]
-    return create_model(
-        "StudyFile",
-        __config__=ConfigDict(extra="forbid"),
-        records=(records, STUDY_RECORDS),
-        scaled=(StrictBool, True),
-        scaling=(Annotated[Any, PlainValidator(scaling_of)], None),
-        outputs=(outputs | None, None),
-        certify=(StrictBool, True),
-        free_vibration=(Annotated[Any, PlainValidator(free_vibration_field)], 0.0),
-        at_rest=(StrictBool, False),
-        tension_braces=(Annotated[Any, PlainValidator(_tension_braces)], ()),
-        **scalars_and_axes,
-    )
-
-
-_StudyFile: Final = _study_file()

@@ -9,7 +9,8 @@ import pytest
 from fdspec.errors import RecordError, StudyError
 from fdspec.model.grid import GRID_FIELDS, Grid
 from fdspec.records import catalogue
-from fdspec.runs.study import OUTPUTS, Study
+from fdspec.runs.study import Study
+from fdspec.runs.study_outputs import OUTPUTS
 from fdspec.runs.study_records import STUDY_RECORDS, RecordFile, find_record
 from fdspec.runs.study_text import even_axis
 
