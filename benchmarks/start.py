@@ -17,6 +17,27 @@ import fdspec
 fdspec.sweep(fdspec.load_record("FSR1"), period=[0.5], pretension=[100e3], stiffness_ratio=[4.0])
 """
 
+HISTORY = """\
+import fdspec
+frame = fdspec.Building(20e3, 3.16e6, 50.0, 12.6e6, 100e3)
+fdspec.simulate(frame, fdspec.load_record("FSR1"))
+"""
+
+BUILDING = """\
+import fdspec
+building = fdspec.Building([20e3] * 4, [30e6] * 4, 50.0, 60e6, [40e3] * 4)
+fdspec.{run}
+"""
+
+FIRST = {
+    "one-cell sweep": ONE_CELL,
+    "one history, one storey": HISTORY,
+    "one history, four storeys": BUILDING.format(run='simulate(building, fdspec.load_record("FSR1"))'),
+    "one-cell sweep of four storeys": BUILDING.format(
+        run='sweep_buildings(fdspec.load_record("FSR1"), building, slip_scale=[1.0], stiffness_scale=[1.0])'
+    ),
+}
+
 
 def seconds(command: Sequence[str], rounds: int, cache: str | None = None) -> float:
     """Median wall seconds of a command in a process of its own."""
@@ -34,17 +55,20 @@ def rows() -> list[tuple[str, str, float]]:
     """What, how often measured, seconds."""
     python = sys.executable
     command = [python, "-m", "fdspec"]
-    one_cell = [python, "-c", ONE_CELL]
     found = [
         ("python -c pass", "5", seconds([python, "-c", "pass"], 5)),
         ("import fdspec", "5", seconds([python, "-c", "import fdspec"], 5)),
         ("fdspec --help", "5", seconds([*command, "--help"], 5)),
         ("fdspec records list", "5", seconds([*command, "records", "list"], 5)),
     ]
+    for what, code in FIRST.items():
+        with tempfile.TemporaryDirectory() as folder:
+            found.append(
+                (f"{what}, first time ever (compiles)", "1", seconds([python, "-c", code], 1, folder))
+            )
+            found.append((f"{what}, from the cache", "5", seconds([python, "-c", code], 5, folder)))
     with tempfile.TemporaryDirectory() as folder:
-        first = seconds(one_cell, 1, folder)
-        found.append(("one-cell sweep, first time ever (compiles)", "1", first))
-        found.append(("one-cell sweep, from the cache", "5", seconds(one_cell, 5, folder)))
+        seconds([python, "-c", ONE_CELL], 1, folder)
         for options in (["--no-certify"], []):
             study = [*command, "sweep", *options, "-o", str(Path(folder) / "cube.nc"), "--force"]
             what = " ".join(["fdspec sweep", *options])

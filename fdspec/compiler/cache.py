@@ -63,8 +63,8 @@ def tell(reason: str) -> None:
     """Warn that nothing compiled is kept; once for all processes of this program."""
     if multiprocessing.parent_process() is None:
         warnings.warn(
-            f"compiled kernels cannot be kept ({reason}): every start will compile them, for about half a "
-            "minute; FDSPEC_CACHE_DIR can name a folder that only you can write in",
+            f"compiled kernels cannot be kept ({reason}): every start will compile them, for about a "
+            "quarter of a minute; FDSPEC_CACHE_DIR can name a folder that only you can write in",
             stacklevel=3,
         )
 
@@ -75,7 +75,7 @@ def say_once() -> None:
     notebook = "ipykernel" in sys.modules
     if multiprocessing.parent_process() is None and (sys.stderr.isatty() or notebook):
         print(  # noqa: T201
-            "fdspec: compiling kernels, once for this version and processor: about half a minute",
+            "fdspec: compiling kernels, once for this version and processor: about a quarter of a minute",
             file=sys.stderr,
             flush=True,
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import re
 from typing import Any
 
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 from llvmlite.binding import get_host_cpu_features
 from numba import config
+from numba.core.registry import cpu_target
 
 from fdspec.compiler import options
 from fdspec.compiler.callees import CalleeLibrary
@@ -154,3 +156,77 @@ def test_entries_share_what_they_call() -> None:
     assert first(1.0) == 4.0
     assert second(1.0) == 6.0
     assert next(iter(twice.overloads.values())).library is library
+
+
+@compiled
+@pytest.mark.usefixtures("kept_nowhere")
+def test_rules_kept_for_an_entry_are_whole_for_any_other_caller() -> None:
+    """What comes later links a rule of an entry with all that this calls in turn."""
+    twice, row, third = rules()
+
+    @inner
+    def fourfold(x):
+        return twice(twice(x))
+
+    @inner
+    def eightfold(x):
+        return fourfold(twice(x)) + 0.0 * third(row_of_three)
+
+    row_of_three = np.ones(3)
+
+    @entry(numba.float64(numba.float64))
+    def first(x):
+        return eightfold(x) + row(x, 1)[0]
+
+    @inner
+    def later(x):
+        return eightfold(x) + fourfold(x)
+
+    @numba.njit
+    def elsewhere(x):
+        return eightfold(x) + row(x, 2)[1]
+
+    assert first(1.0) == 10.0
+    assert later(1.0) == 12.0
+    assert elsewhere(1.0) == 11.0
+    assert eightfold(0.5) == 4.0
+
+
+@compiled
+@pytest.mark.usefixtures("kept_nowhere")
+def test_a_rule_is_compiled_once_for_all_constants() -> None:
+    twice, row, third = rules()
+
+    @entry(numba.float64(numba.float64))
+    def constants(x):
+        return twice(1.0) + twice(x) + third(row(2.0, 3)) + third(row(3.0, 4))
+
+    assert constants(2.0) == 2.0 + 4.0 + 6.0 + 8.0
+    for rule in (twice, row, third):
+        assert len(rule.overloads) == 1
+
+
+@compiled
+@pytest.mark.usefixtures("kept_nowhere")
+@pytest.mark.parametrize("collects", [True, False])
+def test_what_is_changed_while_an_entry_is_compiled_is_as_before(collects: bool) -> None:
+    """An entry that fails to compile leaves garbage collection and numba's resolution as they were."""
+
+    @entry(numba.float64(numba.float64))
+    def sound(x):
+        return x + x
+
+    was = gc.isenabled()
+    (gc.enable if collects else gc.disable)()
+    try:
+        with pytest.raises(numba.TypingError):
+
+            @entry(numba.float64(numba.float64))
+            def unsound(x):
+                return x + "text"
+
+        assert gc.isenabled() is collects
+    finally:
+        (gc.enable if was else gc.disable)()
+    assert "resolve_function_type" not in vars(cpu_target.typing_context)
+    assert sound(1.0) == 2.0

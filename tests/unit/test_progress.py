@@ -156,5 +156,5 @@ def test_compiling_is_told_on_a_terminal_once(
     for kernel in ("one", "two", "one"):
         with cache.compiling(tmp_path, kernel):
             pass
-    said = "fdspec: compiling kernels, once for this version and processor: about half a minute\n"
+    said = "fdspec: compiling kernels, once for this version and processor: about a quarter of a minute\n"
     assert terminal.getvalue() == said
