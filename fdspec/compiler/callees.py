@@ -24,6 +24,7 @@ import numba
 from numba import types
 from numba.core.codegen import CPUCodeLibrary, JITCodeLibrary
 from numba.core.compiler import Compiler
+from numba.core.compiler_lock import global_compiler_lock
 from numba.core.compiler_machinery import PassManager
 from numba.core.registry import cpu_target
 
@@ -56,20 +57,21 @@ _for_an_entry: ContextVar[bool] = ContextVar("for_an_entry", default=False)
 
 @contextmanager
 def for_an_entry() -> Iterator[None]:
-    """Compile what is called inside for its callers.
+    """Compile what is called inside for its callers; one thread at a time, as numba compiles anyway.
 
     Garbage is not looked for meanwhile: a compiler makes many small objects that last as long as it runs.
     """
-    token = _for_an_entry.set(True)
-    collects = gc.isenabled()
-    gc.disable()
-    try:
-        with _operators_resolved_once():
-            yield
-    finally:
-        _for_an_entry.reset(token)
-        if collects:
-            gc.enable()
+    with global_compiler_lock:
+        token = _for_an_entry.set(True)
+        collects = gc.isenabled()
+        gc.disable()
+        try:
+            with _operators_resolved_once():
+                yield
+        finally:
+            _for_an_entry.reset(token)
+            if collects:
+                gc.enable()
 
 
 @contextmanager

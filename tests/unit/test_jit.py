@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import gc
 import re
+import threading
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numba
@@ -204,6 +206,28 @@ def test_a_rule_is_compiled_once_for_all_constants() -> None:
     assert constants(2.0) == 2.0 + 4.0 + 6.0 + 8.0
     for rule in (twice, row, third):
         assert len(rule.overloads) == 1
+
+
+@compiled
+@pytest.mark.usefixtures("kept_nowhere")
+def test_entries_are_compiled_by_several_threads_at_once() -> None:
+    twice, row, third = rules()
+    start = threading.Barrier(4)
+
+    def compile_one(k: int) -> float:
+        start.wait()
+
+        @entry(numba.float64(numba.float64))
+        def one(x):
+            return third(row(x, 3 + k)) + twice(k * x)
+
+        found: float = one(1.0)
+        return found
+
+    with ThreadPoolExecutor(4) as threads:
+        assert list(threads.map(compile_one, range(4))) == [4.0, 6.0, 8.0, 10.0]
+    assert "resolve_function_type" not in vars(cpu_target.typing_context)
+    assert gc.isenabled()
 
 
 @compiled
