@@ -5,6 +5,7 @@ from pathlib import Path
 
 import hypothesis.extra.numpy as arrays
 import numpy as np
+import pytest
 import xarray as xr
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -61,8 +62,19 @@ def bits(variable):
 
 
 @given(datasets())
-@settings(max_examples=150)
+@settings(max_examples=40)
 def test_round_trip(dataset):
+    goes_round(dataset)
+
+
+@pytest.mark.slow
+@given(datasets())
+@settings(max_examples=600)
+def test_many_round_trips(dataset):
+    goes_round(dataset)
+
+
+def goes_round(dataset):
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "file.nc")
         store.save(dataset, path)

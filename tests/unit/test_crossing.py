@@ -66,13 +66,28 @@ def test_verdict(phase: float, angle: float, level: float, slope: float) -> None
         assert np.all(values[first:] <= 1e-12)
 
 
-@settings(max_examples=1000, derandomize=True, suppress_health_check=[HealthCheck.filter_too_much])
-@given(phases, st.floats(0.5 * math.pi, 1.5 * math.pi), st.floats(0.95, 1.1), st.floats(-0.3, 0.3))
+dips = given(phases, st.floats(0.5 * math.pi, 1.5 * math.pi), st.floats(0.95, 1.1), st.floats(-0.3, 0.3))
+some_are_sure = settings(derandomize=True, suppress_health_check=[HealthCheck.filter_too_much])
+
+
+@settings(some_are_sure, max_examples=200)
+@dips
 @example(1.0, math.pi - 0.5, 1.0 - 1e-5, 0.0)  # dips below zero between ends above it
 @example(1.0, math.pi - 0.5, 1.0 - 1e-3, 0.0)
 @example(1.0, math.pi - 0.5, 1.0 + 1e-3, 0.0)  # and stays above
 @example(1.0, math.pi - 0.5, 1.0 + 1e-5, 0.0)
 def test_dips(phase: float, angle: float, level: float, slope: float) -> None:
+    judge_dip(phase, angle, level, slope)
+
+
+@pytest.mark.slow
+@settings(some_are_sure, max_examples=2000)
+@dips
+def test_many_dips(phase: float, angle: float, level: float, slope: float) -> None:
+    judge_dip(phase, angle, level, slope)
+
+
+def judge_dip(phase: float, angle: float, level: float, slope: float) -> None:
     found, fall = dip_verdict(course(phase, angle, level, slope))
     assume(found != UNCLEAR)
     at = np.linspace(0.0, fall.share, 4001) if found == CROSSES else AT
