@@ -102,7 +102,6 @@ class CalleeLibrary(JITCodeLibrary):  # type: ignore[misc]
 
     def __init__(self, codegen: Any, rule: Callable[..., Any]) -> None:
         super().__init__(codegen, rule.__qualname__)
-        self.calls: list[CPUCodeLibrary] = []
         self._whole: Any = None
         alone = cache(lambda: numba.njit(**OPTIONS)(rule))
         self._called = _Wrapper(lambda closure, arguments, keywords: alone()(*arguments))  # noqa: ARG005
@@ -115,10 +114,10 @@ class CalleeLibrary(JITCodeLibrary):  # type: ignore[misc]
     def set_env(self, *environment: Any) -> None:
         """Do without one: what is linked into an entry has the entry's."""
 
-    def add_linking_library(self, library: CPUCodeLibrary) -> None:
-        """Keep what the rule calls."""
-        super().add_linking_library(library)
-        self.calls.append(library)
+    @property
+    def calls(self) -> list[CPUCodeLibrary]:
+        """What the rule calls."""
+        return list(self._linking_libraries)
 
     def finalize(self) -> None:
         """Leave the code as it is: neither linked nor optimised, without a place in memory."""
